@@ -241,6 +241,7 @@ enum class SystemKind : std::uint8_t {
   kActiveFeed, kActiveSpeed, kActiveTool, kActiveEdge,
   kModalGroup,             // $P_GG[n], #4001..: code of the group, by Machine::groups
   kModalCallActive,        // $P_MC
+  kPlaneAxis,              // $P_AXN1..3: abscissa, ordinate, applicate of the active plane
   kWasProgrammed,          // $P_SUBPAR[n]
   kProgramLevel,           // $P_STACK
   kUserMemory,             // $AC_MARKER[n], $AC_PARAM[n]: cells that programs write and read

@@ -1,0 +1,72 @@
+// `ncport.toml` (contracts section 7): the settings of a folder of programs.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/diag/sink.h"
+#include "base/result.h"
+#include "base/source_files.h"
+#include "dialects/profile.h"
+#include "ir/modes.h"
+
+namespace ncport::dialects {
+
+/// One line `"T1 D1" = "T0101"`: words with single blanks.
+struct WordMapping {
+  std::string source;
+  std::string target;
+  SourceRange at;
+};
+struct ProgramMapping {
+  std::string source;
+  std::vector<std::string> targets;  // numbers as digits; more than one where a cycle is split
+  SourceRange at;
+};
+/// Values that comparison may draw from: "TURNING_CYCLE.EXTD" or "R10" = [20, 300].
+struct ValueRange {
+  std::string name;
+  double least = 0;
+  double most = 0;
+  SourceRange at;
+};
+/// Largest value of a word ("spindle" 1/min, "feed" mm/min), or envelope of an axis ("x": -most .. most, or [least, most]).
+struct Limit {
+  std::string name;                  // lower case
+  double least = 0;
+  double most = 0;
+  SourceRange at;
+};
+enum class FailOn : std::uint8_t { kError, kWarning, kNever };
+
+struct Config {
+  FileId file;                       // invalid: there is none
+  std::string folder;                // of the file; relative paths in it start there
+  std::optional<std::string> from, to;
+  std::vector<WordMapping> tools;
+  std::vector<WordMapping> offsets;
+  std::vector<ProgramMapping> programs;
+  std::vector<WordMapping> variables;
+  std::vector<MCodeRule> mcodes;
+  std::vector<ValueRange> ranges;
+  std::vector<Limit> limits;
+  ir::ModalState entry;              // groups that the file leaves open are unknown
+  std::optional<FailOn> fail_on;
+  std::vector<std::string> select, ignore;
+
+  /// The target words of a tool call, work offset, variable; none = not mapped. "T1" also finds the key "T1 D1".
+  [[nodiscard]] const WordMapping* FindTool(std::string_view words) const;
+  [[nodiscard]] const WordMapping* FindOffset(std::string_view word) const;
+  [[nodiscard]] const WordMapping* FindVariable(std::string_view name) const;
+  [[nodiscard]] const ProgramMapping* FindProgram(std::string_view name) const;
+};
+
+/// Reads the file at `path`. Fails after errors: unreadable, unknown keys, wrong values.
+Result<Config> LoadConfig(std::string_view path, SourceFiles& files, diag::Sink& sink);
+/// The nearest `ncport.toml` in the folder of `first_input` or above it; an empty Config if there is none.
+Result<Config> FindConfig(std::string_view first_input, SourceFiles& files, diag::Sink& sink);
+
+}  // namespace ncport::dialects

@@ -55,10 +55,19 @@ enum class Outcome : std::uint8_t {
   kStopped,    // the sink asked to stop
 };
 
+/// One division whose integral part may matter: where a layer more or less is decided.
+struct Quotient {
+  ir::ExprId expr;             // the DivideInteger, Modulo or Divide node
+  double numerator = 0;
+  double denominator = 0;
+};
+
 /// What a run touched: branch coverage and inputs, for comparisons. Filled when the pointer is given.
 struct Coverage {
+  static constexpr std::size_t kMaxQuotients = 64;
   std::vector<std::uint8_t> blocks;        // per block: bit 0 = executed, bit 1 = branch taken, bit 2 = branch not taken
   std::vector<std::uint32_t> cells_read_before_written;  // packed space << 24 | cell
+  std::vector<Quotient> quotients;         // the first kMaxQuotients DivideInteger, Modulo and Divide nodes evaluated
 };
 
 struct RunResult {

@@ -11,6 +11,11 @@
 
 namespace ncport::ir {
 
+/// Bytes of a source line that an expression came from.
+struct ExprPlace {
+  std::uint32_t begin = 0, length = 0;
+};
+
 /// Owner of every record of a set of programs. Copyable; passes that restructure build new blocks at the end of
 /// `blocks` and give the program its new range.
 struct Module {
@@ -40,11 +45,7 @@ struct Module {
   std::vector<StringId> axis_names;             // of axes from kFirstNamedAxis on
   std::vector<StringId> file_names;             // FileId -> name, for dumps and traces
 
-  // Places of expressions in their source line, beside `exprs` (same index): for messages only.
-  struct ExprPlace {
-    std::uint32_t begin = 0, length = 0;
-  };
-  std::vector<ExprPlace> expr_places;
+  std::vector<ExprPlace> expr_places;           // beside `exprs` (same index): for messages only
   /// Spelling of a literal with NumberFormat::kAsText, by Expr::count index; entry 0 unused.
   std::vector<StringId> literal_texts{StringId{}};
 

@@ -108,7 +108,7 @@ struct Expr {
   std::uint16_t count = 0;    // kList: number of entries; kLiteral with kAsText: see Module::literal_texts
   union {
     double number;            // kLiteral; BOOL as 0 and 1, CHAR as its code
-    struct {
+    __extension__ struct {  // anonymous structs are no ISO C++; g++ and clang have them
       std::uint32_t a, b;     // see the comments in nodes.def; kList: b = first entry in Module::expr_items
     };
   };

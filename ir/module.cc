@@ -1,0 +1,48 @@
+#include "ir/module.h"
+
+#include <algorithm>
+
+namespace ncport::ir {
+
+namespace {
+
+char Lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+bool SameName(std::string_view a, std::string_view b, bool ignore_case) {
+  if (!ignore_case) return a == b;
+  return std::ranges::equal(a, b, {}, Lower, Lower);
+}
+
+}  // namespace
+
+SourceRange Module::RangeOf(const Block& block) const {
+  if (!block.origin.Valid()) return {};
+  const Origin& origin = origins[block.origin];
+  return {origin.file, origin.line, 0, 0};
+}
+
+SourceRange Module::RangeOf(const Block& block, const Word& word) const {
+  SourceRange range = RangeOf(block);
+  range.begin = word.begin;
+  range.end = word.begin + word.length;
+  return range;
+}
+
+SourceRange Module::RangeOf(const Block& block, ExprId expr) const {
+  SourceRange range = RangeOf(block);
+  if (expr.value < expr_places.size()) {
+    const ExprPlace place = expr_places[expr.value];
+    range.begin = place.begin;
+    range.end = place.begin + place.length;
+  }
+  return range;
+}
+
+ProgramId Module::FindProgram(std::string_view name, bool ignore_case) const {
+  for (const ProgramId id : programs.Ids()) {
+    if (SameName(View(programs[id].name), name, ignore_case)) return id;
+  }
+  return {};
+}
+
+}  // namespace ncport::ir

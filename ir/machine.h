@@ -49,6 +49,22 @@ struct CodeMeaning {
   Phase phase = Phase::kSetting;
 };
 
+/// Code of a modal group while a mode is in force: what a program reads back ($P_GG[1], #4001). The first row of the group
+/// that agrees with the state is the answer.
+struct GroupCode {
+  std::uint16_t group = 0;
+  WordOp op = WordOp::kInert;              // Motion, Plane, Distance, Units, FeedMode, SpeedMode, CutterComp, Diameter, PathMode,
+                                           // ReturnLevel, WorkOffset; Inert: no state behind it, always agrees
+  std::uint8_t index = 0;                  // enumerator of ir/modes.h
+  std::uint32_t extra = Id<void>::kNone;   // WorkOffset: number
+  double code = 0;
+};
+
+/// Alarm numbers that only show a message; AlarmKind::kByNumber asks for them at run time.
+struct AlarmRange {
+  std::uint32_t first = 0, last = 0;
+};
+
 struct Machine {
   // Axes.
   std::uint16_t axes = 0x1FF;                // bit per axis that exists
@@ -75,6 +91,15 @@ struct Machine {
   std::uint32_t passes_max = 9999;
   bool program_variables_visible = false;    // variables of the main program are visible in subprograms
 
+  // Rules of flow.
+  bool file_end_is_end = false;              // a program may end without an end word; else that is an alarm
+  bool return_in_main_restarts = false;      // a return word in the main program starts it again; else it ends it
+  bool for_end_once = true;                  // the end value of FOR is computed once, not before each pass
+  bool for_counter_rounds = true;            // a REAL counter is rounded to a whole number when the loop starts
+  bool passes_keep_locals = false;           // later passes of one call see the locals as the pass before left them
+  std::uint32_t modal_call_levels = 1;       // modal calls that may be active at once; the last one runs first
+  bool modal_call_keeps_locals = true;       // locals of a modal subprogram keep their values between its runs
+
   // Rules of motion.
   Rapid rapid = Rapid::kStraight;
   bool incremental_traverses_frame = false;  // an incremental word after a frame change also moves the shift
@@ -85,6 +110,14 @@ struct Machine {
   bool feed_type_change_drops_feed = true;   // after a change of feed mode F must be written again
   bool end_in_called_program_returns = true; // M30/M2 in a called program acts as return
   bool rotation_order_rpy = true;            // several angles in one rotation: Z, Y', X''; else Z, X', Z''
+  bool arc_center_corrected = true;          // a centre that does not fit both ends is moved between them
+  double arc_correction_angle = 1.8;         // degrees that the centre may turn seen from the start, when corrected; 0 = no test
+  bool arc_radius_beats_center = false;      // radius and centre in one block: the radius holds; else that is an alarm
+  bool arc_radius_without_end_stays = false; // radius without another end point: no motion; else that is an alarm
+  bool thread_lead_from_feed = false;        // the lead of a thread is F, the centre word its change; else the centre word
+  bool frame_shift_in_diameter = false;      // shifts of the transverse axis follow the diameter mode
+  bool reference_via_point = false;          // axis words of a reference move are a point on the way
+  bool position_reads_diameter = false;      // position variables of the transverse axis follow the diameter mode
   bool chamfer_feed_from_next = true;        // feed of an inserted chamfer or rounding is that of the block behind
   bool surface_speed_per_revolution = true;  // constant surface speed switches the feed to per revolution
   ModalCallTrigger modal_call_trigger = ModalCallTrigger::kMotionBlocks;
@@ -93,6 +126,9 @@ struct Machine {
   // Words that exist only at run time.
   std::vector<CodeMeaning> g_codes;          // sorted by tenths
   std::vector<CodeMeaning> m_codes;
+
+  std::vector<GroupCode> groups;
+  std::vector<AlarmRange> shown_alarms;
 
   // Alarm number (or word) and text per AlarmClass; empty code: the class name is printed.
   struct Alarm {

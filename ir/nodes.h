@@ -82,7 +82,8 @@ enum class FrameOp : std::uint8_t {
   kAddTranslate, kAddRotate, kAddScale, kAddMirror,
   kReset,
 };
-enum class AlarmKind : std::uint8_t { kStops, kShows };
+/// kByNumber: Machine::shown_alarms decides when the number is known.
+enum class AlarmKind : std::uint8_t { kStops, kShows, kByNumber };
 /// kEnd: M17, RET, M99. kToCaller: RET("label"), M99 P: value is the block number or label in the caller.
 enum class ReturnKind : std::uint8_t { kAuxiliary /* M17 */, kPlain /* RET, M99 */, kToCaller };
 

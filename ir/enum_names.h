@@ -35,6 +35,7 @@ constexpr std::string_view NameOf(ValueMode value) {
     case ValueMode::kIncrementalDiameter: return "incremental-diameter";
     case ValueMode::kAbsoluteRadius: return "absolute-radius";
     case ValueMode::kIncrementalRadius: return "incremental-radius";
+    case ValueMode::kQuick: return "quick";
     case ValueMode::kStep: return "step";
   }
   return {};

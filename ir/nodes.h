@@ -71,6 +71,7 @@ enum class ValueMode : std::uint8_t {
   kIncrementalDiameter,  // DIC()
   kAbsoluteRadius,       // RAC()
   kIncrementalRadius,    // RIC()
+  kQuick,                // QU(): output of the function does not wait; no effect on a trace
   kStep,                 // incremental from the last position, not converted by the diameter mode: I J K from the start point
 };
 

@@ -1,11 +1,11 @@
 #include "prove/compare.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <string_view>
-
-#include <fmt/format.h>
 
 namespace ncport::prove {
 
@@ -39,7 +39,7 @@ double WordErrorOf(const Precision& precision) {
 struct SpindleNow {
   ir::SpindleState sense = ir::SpindleState::kUnknown;
   bool surface = false;
-  double speed = -1;   // < 0: not programmed
+  double speed = -1;  // < 0: not programmed
   double limit = -1;
   bool operator==(const SpindleNow&) const = default;
 };
@@ -61,7 +61,8 @@ struct Selected {
 /// One side as it is walked through.
 class Walk {
  public:
-  Walk(const std::vector<Event>& events, const Maps& maps, bool source) : events_(events), maps_(maps), source_(source) {
+  Walk(const std::vector<Event>& events, const Maps& maps, bool source)
+      : events_(events), maps_(maps), source_(source) {
     for (const Event& event : events_) {
       motions_left_ += IsMotion(event.kind) && !event.added ? 1U : 0U;
       if (IsMotion(event.kind) || event.kind == EventKind::kTool) last_ = &event;
@@ -148,7 +149,8 @@ bool Walk::TakeState(const Event& event) {
         return !before.wcs_known || before.wcs != state.wcs || before.wcs_extension != state.wcs_extension;
       case EventKind::kComp:
         state.comp = event.comp;
-        return before.comp != state.comp && !(before.comp == ir::CutterComp::kUnknown && state.comp == ir::CutterComp::kOff);
+        return before.comp != state.comp &&
+               !(before.comp == ir::CutterComp::kUnknown && state.comp == ir::CutterComp::kOff);
       case EventKind::kPath:
         state.path = event.path;
         return before.path != state.path;
@@ -191,7 +193,8 @@ const Event* Walk::Next() {
           }
           const bool later = std::any_of(events_.begin() + static_cast<std::ptrdiff_t>(index_), events_.end(),
                                          [](const Event& e) { return e.kind == EventKind::kSpindleLimit; });
-          if (!follows && later && !complaint_) complaint_ = "constant surface speed starts before its speed limit is set";
+          if (!follows && later && !complaint_)
+            complaint_ = "constant surface speed starts before its speed limit is set";
         }
         TakeSpindle(event, spindle_);
         if (!event.added) TakeSpindle(event, own_spindle_);
@@ -312,13 +315,16 @@ void Comparer::ComparePositions(const Event& a, const Event& b) {
   const std::uint16_t both = a.known_axes & b.known_axes;
   common_axes_ = static_cast<std::uint16_t>(common_axes_ | both);
   // An axis that an added block moved stands elsewhere until the program names it: allowed for rapids only.
-  const std::uint16_t away = a.kind == EventKind::kRapid
-                                 ? static_cast<std::uint16_t>((target_.Dirty() & ~b.moved_axes) | (source_.Dirty() & ~a.moved_axes))
-                                 : std::uint16_t{0};
+  const std::uint16_t away =
+      a.kind == EventKind::kRapid
+          ? static_cast<std::uint16_t>((target_.Dirty() & ~b.moved_axes) | (source_.Dirty() & ~a.moved_axes))
+          : std::uint16_t{0};
   for (std::uint8_t axis = 0; axis < ir::kMaxAxes; ++axis) {
     if (((both & ~away) >> axis & 1U) == 0) continue;
     if (!(std::fabs(a.position[axis] - b.position[axis]) <= Allowed(a, b, axis))) {
-      Fail(&a, &b, fmt::format("{} is {:.6f} in the source and {:.6f} in the target", AxisName(axis), a.position[axis], b.position[axis]));
+      Fail(&a, &b,
+           fmt::format("{} is {:.6f} in the source and {:.6f} in the target", AxisName(axis), a.position[axis],
+                       b.position[axis]));
       return;
     }
   }
@@ -336,7 +342,9 @@ void Comparer::CompareMotionDetails(const Event& a, const Event& b) {
       const double allowed = options_.tolerance + 2 * (WordErrorOf(options_.source) + WordErrorOf(options_.target));
       for (int i = 0; i < 2; ++i) {
         if (!(std::fabs(a.center[i] - b.center[i]) <= allowed)) {
-          return Fail(&a, &b, fmt::format("the centre ({:.6f},{:.6f}) became ({:.6f},{:.6f})", a.center[0], a.center[1], b.center[0], b.center[1]));
+          return Fail(&a, &b,
+                      fmt::format("the centre ({:.6f},{:.6f}) became ({:.6f},{:.6f})", a.center[0], a.center[1],
+                                  b.center[0], b.center[1]));
         }
       }
       break;
@@ -354,7 +362,8 @@ void Comparer::CompareMotionDetails(const Event& a, const Event& b) {
       break;
   }
   if (Failed() || !(a.kind == EventKind::kLine || a.kind == EventKind::kArc || a.kind == EventKind::kProbe)) return;
-  if (a.feed_mode != b.feed_mode) return Fail(&a, &b, "the feed has another unit (per minute, per revolution, inverse time)");
+  if (a.feed_mode != b.feed_mode)
+    return Fail(&a, &b, "the feed has another unit (per minute, per revolution, inverse time)");
   CompareNumber(a, b, a.feed, b.feed, "the feed");
 }
 
@@ -380,8 +389,10 @@ void Comparer::CompareTool(const Event& a, const Event& b) {
     return;
   }
   for (const ToolPair& pair : options_.maps.tools) {
-    const bool source = pair.source_name.empty() ? a.text.empty() && pair.source_tool == a.number : pair.source_name == a.text;
-    const bool target = pair.target_name.empty() ? b.text.empty() && pair.target_tool == b.number : pair.target_name == b.text;
+    const bool source =
+        pair.source_name.empty() ? a.text.empty() && pair.source_tool == a.number : pair.source_name == a.text;
+    const bool target =
+        pair.target_name.empty() ? b.text.empty() && pair.target_tool == b.number : pair.target_name == b.text;
     if (source && target) return;
   }
   Fail(&a, &b, "the tool of the target is not the one that the tool map gives");
@@ -393,7 +404,8 @@ void Comparer::CompareToolState(const Event& a, const Event& b) {
   const Selected& sb = target_.Now();
   if (!sa.tool_known || !sb.tool_known) return;
   for (const ToolPair& pair : options_.maps.tools) {
-    const bool tool = pair.source_name.empty() ? sa.tool_name.empty() && pair.source_tool == sa.tool : pair.source_name == sa.tool_name;
+    const bool tool = pair.source_name.empty() ? sa.tool_name.empty() && pair.source_tool == sa.tool
+                                               : pair.source_name == sa.tool_name;
     if (!tool) continue;
     const bool edge = pair.source_edge == 0 || (sa.offset_known && sa.offset == pair.source_edge);
     const bool none = sa.offset_known && sa.offset_kind == OffsetKind::kNone && sb.offset_kind == OffsetKind::kNone;
@@ -402,8 +414,8 @@ void Comparer::CompareToolState(const Event& a, const Event& b) {
   Fail(&a, &b, "the tool offset in force is not the one that the tool map gives");
 }
 
-void Comparer::CompareWorkOffset(const Event& a, const Event& b, std::uint32_t wcs_a, std::uint32_t ext_a, std::uint32_t wcs_b,
-                                 std::uint32_t ext_b) {
+void Comparer::CompareWorkOffset(const Event& a, const Event& b, std::uint32_t wcs_a, std::uint32_t ext_a,
+                                 std::uint32_t wcs_b, std::uint32_t ext_b) {
   for (const NumberPair& pair : options_.maps.work_offsets) {
     if (pair.source == wcs_a && pair.source_extension == ext_a) {
       if (pair.target == wcs_b && pair.target_extension == ext_b) return;
@@ -440,9 +452,11 @@ void Comparer::ComparePair(const Event& a, const Event& b) {
       if (!Failed() && IsCutting(a.kind)) CompareSpindles(a, b, source_.Spindle(), target_.Spindle());
       if (!Failed() && IsCutting(a.kind)) CompareToolState(a, b);
       if (!Failed() && source_.Now().wcs_known && target_.Now().wcs_known) {
-        CompareWorkOffset(a, b, source_.Now().wcs, source_.Now().wcs_extension, target_.Now().wcs, target_.Now().wcs_extension);
+        CompareWorkOffset(a, b, source_.Now().wcs, source_.Now().wcs_extension, target_.Now().wcs,
+                          target_.Now().wcs_extension);
       }
-      if (!Failed() && a.kind == EventKind::kRapid && !(source_.Spindle() == target_.Spindle())) ++result_.spindle_moved_across_rapid;
+      if (!Failed() && a.kind == EventKind::kRapid && !(source_.Spindle() == target_.Spindle()))
+        ++result_.spindle_moved_across_rapid;
       source_.MotionDone(a);
       target_.MotionDone(b);
       break;
@@ -493,7 +507,8 @@ void Comparer::ComparePair(const Event& a, const Event& b) {
 /// A rapid that the report lists as split: the target's pieces are walked until the position is reached.
 bool Comparer::SkipSplitRapid(const Event& a) {
   if (a.kind != EventKind::kRapid || options_.maps.split_rapids.empty()) return false;
-  if (std::find(options_.maps.split_rapids.begin(), options_.maps.split_rapids.end(), a.block.value) == options_.maps.split_rapids.end()) {
+  if (std::find(options_.maps.split_rapids.begin(), options_.maps.split_rapids.end(), a.block.value) ==
+      options_.maps.split_rapids.end()) {
     return false;
   }
   const Event* piece = target_.Next();

@@ -1,4 +1,5 @@
-// Compares what two programs do, event by event (contracts section 6, "Two programs"). The allowances there and no others.
+// Compares what two programs do, event by event (contracts section 6, "Two programs"). The allowances there and no
+// others.
 #pragma once
 
 #include <cstdint>
@@ -14,18 +15,18 @@ namespace ncport::prove {
 /// How exact the words of one side are.
 struct Precision {
   ir::WordError word_error = ir::WordError::kNone;
-  double increment = 0;              // least input increment, mm or degrees
-  std::uint8_t diameter_axis = 0xFF; // the axis on which an error counts half while diameter programming is active
+  double increment = 0;               // least input increment, mm or degrees
+  std::uint8_t diameter_axis = 0xFF;  // the axis on which an error counts half while diameter programming is active
 };
 
 /// One tool of both sides. A source name is the text of the tool call; numbers otherwise.
 struct ToolPair {
-  std::string source_name;           // empty: by number
+  std::string source_name;  // empty: by number
   std::uint32_t source_tool = 0;
-  std::uint32_t source_edge = 0;     // 0 = any
+  std::uint32_t source_edge = 0;  // 0 = any
   std::string target_name;
   std::uint32_t target_tool = 0;
-  std::uint32_t target_offset = 0;   // register of the target; 0 = none
+  std::uint32_t target_offset = 0;  // register of the target; 0 = none
 };
 struct NumberPair {
   std::uint32_t source = 0, target = 0;
@@ -41,22 +42,22 @@ struct Maps {
   std::vector<ToolPair> tools;
   std::vector<NumberPair> work_offsets;
   std::vector<AuxPair> aux;
-  bool messages_lost = false;        // MSG and PRINT are left out on both sides
-  bool path_lost = false;            // PATH likewise
-  std::vector<std::uint32_t> split_rapids;   // source blocks whose rapid the target writes axis by axis
-  bool cross_language = true;        // alarms agree by class, else by their first word
-  bool tools_mapped = false;         // tools and offsets go through `tools`; one without an entry differs
+  bool messages_lost = false;               // MSG and PRINT are left out on both sides
+  bool path_lost = false;                   // PATH likewise
+  std::vector<std::uint32_t> split_rapids;  // source blocks whose rapid the target writes axis by axis
+  bool cross_language = true;               // alarms agree by class, else by their first word
+  bool tools_mapped = false;                // tools and offsets go through `tools`; one without an entry differs
 };
 
 struct CompareOptions {
   Precision source, target;
   Maps maps;
-  double tolerance = 0.0001;         // mm, degrees: on top of the words' errors (`diff --tolerance`)
+  double tolerance = 0.0001;  // mm, degrees: on top of the words' errors (`diff --tolerance`)
 };
 
 /// The first place where the two sides differ.
 struct Difference {
-  std::string what;                  // plain words, with both values
+  std::string what;  // plain words, with both values
   ir::BlockId source_block, target_block;
 };
 

@@ -1,0 +1,269 @@
+#include "prove/compare.h"
+
+#include <doctest/doctest.h>
+
+namespace ncport::prove {
+namespace {
+
+using exec::Event;
+using exec::EventKind;
+
+constexpr std::uint16_t kX = 1, kZ = 4;
+
+/// Builds traces a motion at a time; positions are absolute, as in the trace text.
+class Trace {
+ public:
+  Trace& Rapid(double x, double z) { return Move(EventKind::kRapid, x, z, 0); }
+  Trace& Line(double x, double z, double feed) { return Move(EventKind::kLine, x, z, feed); }
+  Trace& Added() {
+    added_ = true;
+    return *this;
+  }
+  Trace& Put(Event event) {
+    event.added = added_;
+    added_ = false;
+    recorded.OnEvent(event);
+    return *this;
+  }
+  Trace& Number(EventKind kind, std::uint32_t number) {
+    Event event;
+    event.kind = kind;
+    event.number = number;
+    return Put(event);
+  }
+  Trace& Value(EventKind kind, double value) {
+    Event event;
+    event.kind = kind;
+    event.value = value;
+    return Put(event);
+  }
+  Trace& Turn(ir::SpindleState state) {
+    Event event;
+    event.kind = EventKind::kSpindle;
+    event.spindle_state = state;
+    return Put(event);
+  }
+  Trace& Text(EventKind kind, std::string_view text) {
+    Event event;
+    event.kind = kind;
+    event.text = text;
+    return Put(event);
+  }
+  Trace& Alarm(ir::AlarmClass alarm, std::string_view code) {
+    Event event;
+    event.kind = EventKind::kAlarm;
+    event.alarm = alarm;
+    event.code = code;
+    return Put(event);
+  }
+  Trace& End() { return Number(EventKind::kEnd, 0); }
+  /// Axes that the next motions name and that are known; X and Z unless said otherwise.
+  Trace& Names(std::uint16_t moved, std::uint16_t known) {
+    moved_ = moved;
+    known_ = known;
+    return *this;
+  }
+
+  RecordedTrace recorded;
+
+ private:
+  Trace& Move(EventKind kind, double x, double z, double feed) {
+    Event event;
+    event.kind = kind;
+    event.position[0] = x;
+    event.position[2] = z;
+    event.known_axes = known_;
+    event.moved_axes = moved_;
+    event.feed = feed;
+    event.diameter_active = true;
+    return Put(event);
+  }
+
+  bool added_ = false;
+  std::uint16_t moved_ = kX | kZ, known_ = kX | kZ;
+};
+
+bool Agree(const Trace& a, const Trace& b, const CompareOptions& options = {}) {
+  return !Compare(a.recorded, b.recorded, options).difference.has_value();
+}
+
+TEST_CASE("equal traces agree and a changed coordinate, feed, kind or length does not") {
+  Trace a;
+  a.Rapid(10, 2).Line(10, -5, 0.2).End();
+  Trace same;
+  same.Rapid(10, 2).Line(10, -5, 0.2).End();
+  CHECK(Agree(a, same));
+  Trace moved;
+  moved.Rapid(10, 2).Line(10, -5.001, 0.2).End();
+  CHECK_FALSE(Agree(a, moved));
+  Trace slower;
+  slower.Rapid(10, 2).Line(10, -5, 0.21).End();
+  CHECK_FALSE(Agree(a, slower));
+  Trace kind;
+  kind.Rapid(10, 2).Rapid(10, -5).End();
+  CHECK_FALSE(Agree(a, kind));
+  Trace shorter;
+  shorter.Rapid(10, 2).End();
+  CHECK_FALSE(Agree(a, shorter));
+  CHECK_FALSE(Agree(shorter, a));
+}
+
+TEST_CASE("the allowance is half an increment where a control rounds, halved on a diameter, and does not grow") {
+  CompareOptions options;
+  options.target = {ir::WordError::kRound, 0.001, 0};
+  Trace a, b, drift;
+  for (int i = 1; i <= 10; ++i) {
+    a.Line(10.0 * i, -i, 1);
+    b.Line(10.0 * i + 0.00025, -i + 0.0005, 1);
+    drift.Line(10.0 * i + 0.0003 * i, -i, 1);
+  }
+  CHECK(Agree(a, b, options));
+  CHECK_FALSE(Agree(a, drift, options));
+  Trace radius;
+  for (int i = 1; i <= 10; ++i) radius.Line(10.0 * i + 0.0005, -i, 1);
+  CHECK_FALSE(Agree(a, radius, options));
+  options.target.diameter_axis = 0xFF;
+  CHECK(Agree(a, radius, options));
+}
+
+TEST_CASE("added blocks are left out before, behind and around a tool change, and nowhere else") {
+  Trace a;
+  a.Rapid(50, 2).Line(50, -5, 1).Number(EventKind::kTool, 2).Rapid(60, 5).Line(60, -1, 1).End();
+  Trace framed;
+  framed.Added()
+      .Rapid(99, 99)
+      .Rapid(50, 2)
+      .Line(50, -5, 1)
+      .Added()
+      .Rapid(200, 100)
+      .Number(EventKind::kTool, 2)
+      .Rapid(60, 5);
+  framed.Line(60, -1, 1).Added().Rapid(200, 100).End();
+  CHECK(Agree(a, framed));
+  Trace between;
+  between.Rapid(50, 2)
+      .Added()
+      .Rapid(200, 100)
+      .Line(50, -5, 1)
+      .Number(EventKind::kTool, 2)
+      .Rapid(60, 5)
+      .Line(60, -1, 1)
+      .End();
+  CHECK_FALSE(Agree(a, between));
+}
+
+TEST_CASE("behind an added retract the program must name the axis before it cuts") {
+  Trace a;
+  a.Rapid(50, 2).Number(EventKind::kTool, 2).Names(kZ, kX | kZ).Rapid(50, 1).Line(50, -1, 1).End();
+  Trace b;
+  b.Rapid(50, 2)
+      .Added()
+      .Rapid(200, 2)
+      .Number(EventKind::kTool, 2)
+      .Names(kZ, kX | kZ)
+      .Rapid(200, 1)
+      .Line(200, -1, 1)
+      .End();
+  CHECK_FALSE(Agree(a, b));
+}
+
+TEST_CASE("an axis that one side alone programs may stand but not move") {
+  Trace a, standing, moving;
+  a.Names(kZ, kZ).Rapid(0, 2).Line(0, -5, 1).End();
+  standing.Rapid(0, 2).Line(0, -5, 1).End();
+  moving.Rapid(0, 2).Line(3, -5, 1).End();
+  CHECK(Agree(a, standing));
+  CHECK_FALSE(Agree(a, moving));
+}
+
+TEST_CASE("spindle states count where the tool cuts, not where they are written") {
+  Trace a, b, other;
+  a.Turn(ir::SpindleState::kCw).Value(EventKind::kSpindleSpeed, 800).Rapid(1, 1).Line(1, 0, 1).End();
+  b.Rapid(1, 1)
+      .Value(EventKind::kSpindleSpeed, 800)
+      .Turn(ir::SpindleState::kCw)
+      .Value(EventKind::kSpindleSpeed, 800)
+      .Line(1, 0, 1)
+      .End();
+  other.Value(EventKind::kSpindleSpeed, 900).Turn(ir::SpindleState::kCw).Rapid(1, 1).Line(1, 0, 1).End();
+  CHECK(Agree(a, b));
+  CHECK(Compare(a.recorded, b.recorded, {}).spindle_moved_across_rapid == 1);
+  CHECK_FALSE(Agree(a, other));
+}
+
+TEST_CASE("the speed limit must be in force before constant surface speed") {
+  Trace a, late;
+  a.Value(EventKind::kSpindleLimit, 3000).Value(EventKind::kSpindleSurface, 180).Rapid(1, 1).Line(1, 0, 1).End();
+  late.Value(EventKind::kSpindleSurface, 180);
+  late.Rapid(1, 1);
+  Event limit;
+  limit.kind = EventKind::kSpindleLimit;
+  limit.value = 3000;
+  limit.block = ir::BlockId{7U};
+  late.Put(limit).Line(1, 0, 1).End();
+  CHECK_FALSE(Agree(a, late));
+}
+
+TEST_CASE("tools, work offsets and M functions go through the maps") {
+  CompareOptions options;
+  Trace a, b;
+  a.Text(EventKind::kTool, "ROUGH")
+      .Number(EventKind::kWorkOffset, 505)
+      .Number(EventKind::kAux, 41)
+      .Number(EventKind::kAux, 77)
+      .Rapid(1, 1)
+      .End();
+  b.Number(EventKind::kTool, 3).Number(EventKind::kWorkOffset, 54).Number(EventKind::kAux, 141).Rapid(1, 1).End();
+  CHECK_FALSE(Agree(a, b, options));
+  options.maps.tools_mapped = true;
+  ToolPair tool;
+  tool.source_name = "ROUGH";
+  tool.target_tool = 3;
+  options.maps.tools.push_back(tool);
+  options.maps.work_offsets.push_back({505, 54, 0, 0});
+  options.maps.aux.push_back({41, 141});
+  options.maps.aux.push_back({77, std::nullopt});
+  CHECK(Agree(a, b, options));
+  options.maps.tools[0].target_tool = 4;
+  CHECK_FALSE(Agree(a, b, options));
+}
+
+TEST_CASE("messages count unless the report lists them as lost") {
+  CompareOptions options;
+  Trace a, b;
+  a.Text(EventKind::kMessage, "LAYER 1").Rapid(1, 1).End();
+  b.Rapid(1, 1).End();
+  CHECK_FALSE(Agree(a, b, options));
+  options.maps.messages_lost = true;
+  CHECK(Agree(a, b, options));
+}
+
+TEST_CASE("alarms agree by class across languages and by their first word within one") {
+  CompareOptions options;
+  Trace a, b;
+  a.Rapid(1, 1).Alarm(ir::AlarmClass::kArithmetic, "14051");
+  b.Rapid(1, 1).Alarm(ir::AlarmClass::kArithmetic, "112");
+  CHECK(Agree(a, b, options));
+  options.maps.cross_language = false;
+  CHECK_FALSE(Agree(a, b, options));
+}
+
+TEST_CASE("a split rapid ends where the rapid does") {
+  CompareOptions options;
+  options.maps.split_rapids.push_back(0);
+  Trace a, b, wrong;
+  Event start;
+  start.kind = EventKind::kRapid;
+  start.known_axes = start.moved_axes = kX | kZ;
+  start.block = ir::BlockId{0U};
+  start.position[0] = 10;
+  start.position[2] = 20;
+  a.Put(start).End();
+  b.Rapid(10, 0).Rapid(10, 20).End();
+  wrong.Rapid(10, 0).Rapid(10, 19).End();
+  CHECK(Agree(a, b, options));
+  CHECK_FALSE(Agree(a, wrong, options));
+}
+
+}  // namespace
+}  // namespace ncport::prove

@@ -310,8 +310,10 @@ struct Call {
   ExprId passes;                 // none = 1
   Target from, to;               // kBlockRange
 };
+/// `single`: only the block of `first`. `has_last`: up to `last`. Else up to the block before the RepeatPart word, or up
+/// to the first block labelled `last.label` (an end label of the language) if one stands before that.
 struct Part {
-  Target first, last;            // last.label invalid: single block (kSingle) or up to the repeat block / end label
+  Target first, last;
   bool single = false;           // REPEATB
   bool has_last = false;
 };

@@ -84,6 +84,7 @@ constexpr std::string_view NameOf(AlarmKind value) {
   switch (value) {
     case AlarmKind::kStops: return "stops";
     case AlarmKind::kShows: return "shows";
+    case AlarmKind::kByNumber: return "by-number";
   }
   return {};
 }

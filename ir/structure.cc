@@ -20,6 +20,7 @@ struct Mark {
 };
 
 constexpr std::uint8_t kKinds = 5;
+constexpr std::uint8_t kAnyNumber = 0xFF;  // DO number of a mark that could not be read
 constexpr WordOp kOpeners[kKinds] = {WordOp::kIf, WordOp::kWhile, WordOp::kLoop, WordOp::kRepeat, WordOp::kFor};
 constexpr WordOp kClosers[kKinds] = {WordOp::kEndIf, WordOp::kEndWhile, WordOp::kEndLoop, WordOp::kUntil,
                                      WordOp::kEndFor};
@@ -43,7 +44,7 @@ class Builder {
       const WordId mark = FindMark(module_.blocks[id]);
       if (!mark.Valid()) continue;
       module_.blocks[id].link = {};
-      const Mark kind = MarkOf(module_.words[mark].op);
+      const Mark kind = MarkOf(OpOf(module_.words[mark]));
       switch (kind.role) {
         case Role::kOpen: Open(id, mark, kind.kind); break;
         case Role::kMiddle: Middle(id, mark); break;
@@ -73,20 +74,38 @@ class Builder {
 
   [[nodiscard]] WordId FindMark(const Block& block) const {
     for (const WordId id : block.words) {
-      if (IsStructureMark(module_.words[id].op)) return id;
+      if (IsStructureMark(OpOf(module_.words[id]))) return id;
     }
     return {};
   }
 
-  /// Marks fit together when kind and DO number agree.
+  /// A mark that the frontend could not read is a Verbatim that says which mark it would be.
+  static WordOp OpOf(const Word& word) {
+    return word.op == WordOp::kVerbatim ? static_cast<WordOp>(word.index) : word.op;
+  }
+  static std::uint8_t DoNumberOf(const Word& word) { return word.op == WordOp::kVerbatim ? kAnyNumber : word.index; }
+
+  /// Marks fit together when kind and DO number agree. The number of a mark that could not be read fits every other.
   [[nodiscard]] std::uint32_t KeyOf(WordId word, std::uint8_t kind) const {
-    return static_cast<std::uint32_t>(kind) << 8U | module_.words[word].index;
+    return static_cast<std::uint32_t>(kind) << 8U | DoNumberOf(module_.words[word]);
+  }
+  /// The key of the innermost open structure that a mark of `key` belongs to; `key` itself if there is none.
+  [[nodiscard]] std::uint32_t OpenKeyFor(std::uint32_t key) const {
+    if (counts_[key] != 0) return key;
+    const std::uint32_t kind = key >> 8U;
+    if ((key & 0xFFU) != kAnyNumber) return counts_[key | kAnyNumber] != 0 ? key | kAnyNumber : key;
+    if (kind_counts_[kind] == 0) return key;
+    for (std::size_t at = open_.size(); at-- > 0;) {
+      if (open_[at].key >> 8U == kind) return open_[at].key;
+    }
+    return key;
   }
 
   void Open(BlockId block, WordId word, std::uint8_t kind) {
     const std::uint32_t key = KeyOf(word, kind);
     open_.push_back({block, word, {}, key});
     ++counts_[key];
+    ++kind_counts_[kind];
     if (max_depth_ != 0 && open_.size() == max_depth_ + 1) {
       auto& finding = sink_.Report(diag::Code::kNestingLimit, RangeOf(block, word), TextOf(word), max_depth_);
       const Opener& outermost = open_.front();
@@ -96,7 +115,7 @@ class Builder {
   }
 
   void Middle(BlockId block, WordId word) {
-    const std::uint32_t key = KeyOf(word, 0);
+    const std::uint32_t key = OpenKeyFor(KeyOf(word, 0));
     if (counts_[key] == 0) {
       Stray(block, word, 0);
       return;
@@ -114,15 +133,14 @@ class Builder {
   }
 
   void Close(BlockId block, WordId word, std::uint8_t kind) {
-    const std::uint32_t key = KeyOf(word, kind);
+    const std::uint32_t key = OpenKeyFor(KeyOf(word, kind));
     if (counts_[key] == 0) {
       CloseWithoutOpener(block, word, kind, key);
       return;
     }
     DropTo(key, block, word);
     const Opener opener = open_.back();
-    open_.pop_back();
-    --counts_[key];
+    Pop();
     module_.blocks[block].link = opener.block;
     if (opener.middle.Valid()) {
       module_.blocks[opener.middle].link = block;
@@ -156,8 +174,7 @@ class Builder {
 
   void DropTop(BlockId ended_by, WordId ended_by_word) {
     const Opener opener = open_.back();
-    open_.pop_back();
-    --counts_[opener.key];
+    Pop();
     Block& block = module_.blocks[opener.block];
     block.link = {};
     Refuse(opener.block);
@@ -165,17 +182,24 @@ class Builder {
     DroppedOf(opener.key).push_back({opener.block, opener.word, ended_by, ended_by_word});
   }
 
+  void Pop() {
+    const std::uint32_t key = open_.back().key;
+    --counts_[key];
+    --kind_counts_[key >> 8U];
+    open_.pop_back();
+  }
+
   diag::Diagnostic& Stray(BlockId block, WordId word, std::uint8_t kind) {
     Refuse(block);
     return sink_.Report(diag::Code::kStrayStructureEnd, RangeOf(block, word), TextOf(word),
-                        TextOfOp(kOpeners[kind], module_.words[word].index));
+                        TextOfOp(kOpeners[kind], module_.words[word]));
   }
 
   void ReportUnclosed(const Dropped& entry) {
     const Word& word = module_.words[entry.word];
-    const Mark kind = MarkOf(word.op);
+    const Mark kind = MarkOf(OpOf(word));
     auto& finding = sink_.Report(diag::Code::kUnclosedStructure, RangeOf(entry.block, entry.word), TextOf(entry.word),
-                                 TextOfOp(kClosers[kind.kind], word.index));
+                                 TextOfOp(kClosers[kind.kind], word));
     if (entry.ended_by.Valid()) {
       finding.notes.push_back({RangeOf(entry.ended_by, entry.ended_by_word),
                                fmt::format("{} ends the structure around it", TextOf(entry.ended_by_word))});
@@ -189,12 +213,15 @@ class Builder {
   }
 
   static std::string Decorate(const Word& word, std::string_view spelling) {
-    const std::string_view text = spelling.empty() ? NameOf(word.op) : spelling;
-    return word.index == 0 ? std::string(text) : fmt::format("{} {}", text, word.index);
+    return WithNumber(spelling.empty() ? NameOf(OpOf(word)) : spelling, word);
+  }
+  static std::string WithNumber(std::string_view text, const Word& word) {
+    const std::uint8_t number = DoNumberOf(word);
+    return number == 0 || number == kAnyNumber ? std::string(text) : fmt::format("{} {}", text, number);
   }
 
   /// How the language of this program calls `op`: as some word of the program is spelled. Only for findings.
-  [[nodiscard]] std::string TextOfOp(WordOp op, std::uint8_t index) {
+  [[nodiscard]] std::string TextOfOp(WordOp op, const Word& partner) {
     auto& known = op_texts_[static_cast<std::size_t>(op)];
     if (known.empty()) {
       known = NameOf(op);
@@ -207,7 +234,7 @@ class Builder {
         break;
       }
     }
-    return index == 0 ? known : fmt::format("{} {}", known, index);
+    return WithNumber(known, partner);
   }
 
   [[nodiscard]] SourceRange RangeOf(BlockId block, WordId word) const {
@@ -241,6 +268,7 @@ class Builder {
   diag::Sink& sink_;
   std::vector<Opener> open_;
   std::array<std::uint32_t, kKinds * 256> counts_{};  // open structures per key
+  std::array<std::uint32_t, kKinds> kind_counts_{};   // and per kind
   std::vector<DroppedOfKey> dropped_;
   std::array<std::string, 256> op_texts_;
 };

@@ -17,7 +17,7 @@ namespace ncport::ir {
 /// Sets Block::link of all marks of one program; other blocks stay as they are. Linear in the number of blocks.
 /// Marks fit together when their kinds and DO numbers (Word::index) agree. An unclosed, unopened or crossed mark is one
 /// finding at its place with a note at its partner or at the mark that ended it, and its block is marked kRefused.
-/// A block that the frontend refused (kRefused) keeps its place in the structure, if its mark word is there.
+/// A mark that the frontend refused keeps its place in the structure: a Verbatim with the mark's WordOp as Word::index.
 /// `max_depth`: nesting that the language allows (0 = no limit); the first mark beyond it is a finding.
 void BuildStructure(Module& module, ProgramId program, std::uint32_t max_depth, diag::Sink& sink);
 

@@ -33,10 +33,17 @@ struct Marks {
         index = static_cast<std::uint8_t>(word.back() - '0');
         word.remove_suffix(1);
       }
+      const bool unread = word.front() == '?';  // a mark that the frontend refused
+      if (unread) word.remove_prefix(1);
       if (word != ".") {
         for (unsigned op = static_cast<unsigned>(WordOp::kIf); op <= static_cast<unsigned>(WordOp::kEndFor); ++op) {
           const auto word_op = static_cast<WordOp>(op);
           if (NameOf(word_op) != word) continue;
+          if (unread) {
+            block.Flags(Block::kRefused);
+            block.Add(WordOp::kVerbatim, {}, static_cast<std::uint8_t>(op), module.strings.Intern("?").value);
+            continue;
+          }
           const bool valued = ValueUseOf(word_op) == ValueUse::kMust;
           block.Add(word_op, valued ? e.Number("1") : ExprId{}, index);
         }
@@ -133,6 +140,17 @@ TEST_CASE("ir structure: DO numbers tell loops apart") {
                                     "  4: its end-while 2 stands here"});
   const Marks wrong("while1 . end-while2");
   CHECK(wrong.Messages() == Texts{"1: while 1 has no end-while 1", "3: end-while 2 without while 2"});
+}
+
+TEST_CASE("ir structure: a mark that could not be read keeps its place and makes no second finding") {
+  const Marks open("?if . else . end-if");
+  CHECK(open.sink.Empty());
+  CHECK(open.Links() == std::vector<int>{2, -1, 4, -1, 0});
+  const Marks numbered("?while . end-while2 while1 ?end-while if ?end-if");
+  CHECK(numbered.sink.Empty());
+  CHECK(numbered.Links() == std::vector<int>{2, -1, 0, 4, 3, 6, 5});
+  const Marks stray("if ?end-while end-if");
+  CHECK(stray.Messages() == Texts{"2: end-while without while"});
 }
 
 TEST_CASE("ir structure: findings speak the words of the program") {

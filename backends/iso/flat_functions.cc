@@ -1,0 +1,292 @@
+// All but motion: spindle, tools and offsets, M functions, dwell.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "backends/common/word_template.h"
+#include "backends/iso/flat_numbers.h"
+#include "backends/iso/flat_writer.h"
+#include "base/number_text.h"
+
+namespace ncport::backends::iso {
+namespace {
+
+// Bits of open_words_.
+constexpr std::uint8_t kSense = 1;
+constexpr std::uint8_t kSpeed = 2;
+
+}  // namespace
+
+void FlatWriter::WriteWords(std::string_view words) {
+  BeginLine();
+  Put(words);
+  EndLine();
+}
+
+// --- what waits for the next event
+
+/// Writes what the event before has left open, unless `next` completes it.
+void FlatWriter::FlushPending(const exec::Event* next) {
+  const bool offset_follows = next != nullptr && next->kind == exec::EventKind::kOffset;
+  const bool limit_follows = next != nullptr && next->kind == exec::EventKind::kSpindleLimit && next->block == pending_block_;
+  if (tool_pending_ && lathe_ && offset_follows) return;      // LatheOffset writes both
+  if (surface_pending_ && limit_follows) return;              // the limit must be in force first
+  const FlatOrigin origin = std::exchange(origin_, FlatOrigin{pending_block_, next == nullptr ? nullptr : next->frames});
+  if (std::exchange(tool_pending_, false)) {
+    const ToolMap::Answer answer = tools_.Tool();
+    if (Report(answer)) WriteTool(answer);
+  }
+  if (std::exchange(surface_pending_, false)) {
+    BeginLine();
+    if (AppendSpeed(target_.spindle.css, lathe_ ? "G96 S{speed}" : "", surface_speed_)) {
+      speed_is_rpm_ = false;
+      feed_mode_ = ir::FeedMode::kUnknown;  // on some controls G96 brings the feed per revolution with it
+      EndLine();
+    } else {
+      out_.Truncate(line_begin_);
+    }
+  }
+  origin_ = origin;
+}
+
+// --- spindle
+
+/// Appends the words for a speed; false after a finding.
+bool FlatWriter::AppendSpeed(const dialects::Setting<std::string>& form, std::string_view usual, double speed) {
+  const std::string_view words = form.Known() ? std::string_view(*form) : usual;
+  if (words.empty()) {
+    Refuse(diag::Code::kNotExpressible, "constant surface speed or a speed limit");
+    return false;
+  }
+  if (!(std::fabs(speed) < kMaxIncrements)) {
+    Refuse(diag::Code::kOutOfRange, fmt::format("speed {}", speed), "what a word can hold");
+    return false;
+  }
+  const std::int64_t whole = RoundToIncrements(speed, 1);
+  if (whole <= 0 && speed != 0) {
+    Refuse(diag::Code::kWordTooCoarse, fmt::format("speed {}", speed), "0");
+    return false;
+  }
+  const Hole holes[] = {{.name = "speed", .number = whole, .text = {}}};
+  if (out_.size() != line_begin_) out_.Append(' ');
+  AppendTemplate(out_, words, holes);
+  return true;
+}
+
+void FlatWriter::Spindle(const exec::Event& event) {
+  if (event.spindle != 0) {
+    Refuse(diag::Code::kNotExpressible, fmt::format("spindle {}", event.spindle));
+    return;
+  }
+  switch (event.kind) {
+    case exec::EventKind::kSpindleSurface:
+      surface_pending_ = true;
+      pending_block_ = event.block;
+      surface_speed_ = inch_ ? event.value / 0.3048 : event.value;
+      return;
+    case exec::EventKind::kSpindleLimit:
+      BeginLine();
+      if (AppendSpeed(target_.spindle.limit, "", event.value)) {
+        EndLine();
+      } else {
+        out_.Truncate(line_begin_);
+      }
+      if (surface_pending_) FlushPending(nullptr);
+      return;
+    default: break;
+  }
+  const std::uint8_t bit = event.kind == exec::EventKind::kSpindle ? kSense : kSpeed;
+  if ((open_words_ & bit) != 0) CloseOpenLine();
+  if (open_words_ == 0) BeginLine();
+  const std::size_t before = out_.size();
+  const std::uint8_t open_before = open_words_;
+  if (bit == kSpeed) {
+    if (!AppendSpeed(target_.spindle.rpm, lathe_ ? "G97 S{speed}" : "S{speed}", event.value)) {
+      out_.Truncate(before);
+      open_words_ = open_before;
+      return;
+    }
+    if (lathe_ && !std::exchange(speed_is_rpm_, true)) feed_mode_ = ir::FeedMode::kUnknown;
+  } else {
+    switch (event.spindle_state) {
+      case ir::SpindleState::kCw: Put(target_.spindle.cw.Or("M3")); break;
+      case ir::SpindleState::kCcw: Put(target_.spindle.ccw.Or("M4")); break;
+      case ir::SpindleState::kStop: Put(target_.spindle.stop.Or("M5")); break;
+      case ir::SpindleState::kPositioned:
+      case ir::SpindleState::kUnknown:
+        if (open_before == 0) out_.Truncate(line_begin_);
+        Refuse(diag::Code::kNotExpressible, "a spindle position");
+        return;
+    }
+  }
+  open_words_ |= bit;
+}
+
+// --- tools and offsets
+
+/// Puts the finding of an answer into the sink. False if there are no words.
+bool FlatWriter::Report(const ToolMap::Answer& answer) {
+  if (!answer.problem) return true;
+  if (diag::Diagnostic* diagnostic = Refuse(*answer.problem, answer.source, answer.assumed)) diagnostic->help = answer.help;
+  return !answer.Failed();
+}
+
+void FlatWriter::WriteTool(const ToolMap::Answer& answer) {
+  if (lathe_) {
+    if (answer.offset_in_tool) return WriteWords("T" + answer.tool);
+    // A tool without an offset: the register 00 is none.
+    return WriteWords(fmt::format("T{:0>2}00", answer.tool));
+  }
+  WriteWords("T" + answer.tool);
+  if (options_.tool_changes_at_t) WriteWords("M6");
+}
+
+void FlatWriter::ToolCall(const exec::Event& event) {
+  tools_.Select(event.number, event.text);
+  radius_register_.reset();
+  tool_pending_ = true;
+  pending_block_ = event.block;
+}
+
+void FlatWriter::Offset(const exec::Event& event) { lathe_ ? LatheOffset(event) : MillOffset(event); }
+
+void FlatWriter::LatheOffset(const exec::Event& event) {
+  const bool with_tool = std::exchange(tool_pending_, false);
+  const std::string what = fmt::format("offset {}", event.number);
+  if (event.offset == exec::OffsetKind::kEdge) {
+    const ToolMap::Answer answer = tools_.Edge(event.number);
+    if (Report(answer)) WriteTool(answer);
+    return;
+  }
+  if (!tools_.Known()) {
+    if (event.offset == exec::OffsetKind::kNone) return;  // nothing was in force in this program
+    Refuse(diag::Code::kOffsetWithoutTool, what);
+    return;
+  }
+  if (event.offset != exec::OffsetKind::kNumber && event.offset != exec::OffsetKind::kNone) {
+    Refuse(diag::Code::kNotExpressible, what);
+    return;
+  }
+  const ToolMap::Answer answer = tools_.Tool();
+  if (!Report(answer)) return;
+  if (answer.offset_in_tool) {
+    // A mapped tool word names its own offset; without it only the tool part of the word is known to be right.
+    if (with_tool && event.offset == exec::OffsetKind::kNumber) return WriteTool(answer);
+    Refuse(diag::Code::kNotExpressible, event.offset == exec::OffsetKind::kNone ? "a mapped tool without its offset" : what);
+    return;
+  }
+  const std::int64_t offset = event.offset == exec::OffsetKind::kNone ? 0 : event.number;
+  const Hole holes[] = {{.name = "tool", .number = tools_.Number(), .text = {}}, {.name = "offset", .number = offset, .text = {}}};
+  BeginLine();
+  AppendTemplate(out_, target_.words.tool.Known() ? std::string_view(*target_.words.tool) : "T{tool:02}{offset:02}", holes);
+  EndLine();
+}
+
+void FlatWriter::MillOffset(const exec::Event& event) {
+  switch (event.offset) {
+    case exec::OffsetKind::kEdge: return EdgeOffset(event.number);
+    case exec::OffsetKind::kLength: return WriteWords(fmt::format("G43 H{}", event.number));
+    case exec::OffsetKind::kNone:
+      radius_register_.reset();
+      return WriteWords(target_.words.length_offset_off.Or("G49"));
+    case exec::OffsetKind::kRadius: break;
+    case exec::OffsetKind::kNumber: Refuse(diag::Code::kNotExpressible, fmt::format("offset {}", event.number)); return;
+  }
+  radius_register_ = event.number;
+  if (comp_ != ir::CutterComp::kOff) WriteWords(fmt::format("D{}", event.number));
+}
+
+/// All offsets of an edge at once: its length under H, its radius for the next G41 or G42.
+void FlatWriter::EdgeOffset(std::uint32_t edge) {
+  const ToolMap::Answer answer = tools_.Edge(edge);
+  if (!Report(answer)) return;
+  if (!answer.length) {
+    Refuse(diag::Code::kUnmappedTool, answer.source);
+    return;
+  }
+  WriteWords(fmt::format("G43 H{}", *answer.length));
+  const auto before = std::exchange(radius_register_, answer.radius);
+  if (comp_ != ir::CutterComp::kOff && before != radius_register_ && radius_register_) WriteWords(fmt::format("D{}", *radius_register_));
+}
+
+void FlatWriter::Compensation(const exec::Event& event) {
+  comp_ = event.comp;
+  if (event.comp == ir::CutterComp::kOff) return WriteWords("G40");
+  const std::string_view side = event.comp == ir::CutterComp::kLeft ? "G41" : "G42";
+  if (lathe_) return WriteWords(side);  // the register stands in the tool word
+  if (!radius_register_) {
+    Refuse(diag::Code::kOffsetWithoutTool, side);
+    return;
+  }
+  WriteWords(fmt::format("{} D{}", side, *radius_register_));
+}
+
+void FlatWriter::WorkOffset(const exec::Event& event) {
+  const std::string source = event.number == 0      ? std::string("none")
+                             : event.extension != 0 ? fmt::format("G{}.1 P{}", event.number, event.extension)
+                                                    : fmt::format("G{}", event.number);
+  if (options_.config != nullptr) {
+    if (const dialects::WordMapping* mapping = options_.config->FindOffset(event.number == 0 ? "G500" : source)) {
+      return WriteWords(mapping->target);
+    }
+  }
+  if (event.extension == 0 && event.number >= 54 && event.number <= 59) return WriteWords(source);
+  if (diag::Diagnostic* diagnostic = Refuse(diag::Code::kUnmappedOffset, source)) {
+    diagnostic->help = fmt::format("add to [offsets] in ncport.toml: \"{}\" = \"G54\", with the offset that stands for it here",
+                                   event.number == 0 ? "G500" : source);
+  }
+}
+
+// --- M functions, dwell
+
+void FlatWriter::Aux(const exec::Event& event) {
+  const std::string word = fmt::format("M{}", event.number);
+  const auto find = [&](const std::vector<dialects::MCodeRule>& rules) -> const dialects::MCodeRule* {
+    for (const dialects::MCodeRule& rule : rules) {
+      if (rule.source == word) return &rule;
+    }
+    return nullptr;
+  };
+  const dialects::MCodeRule* rule = options_.config == nullptr ? nullptr : find(options_.config->mcodes);
+  if (rule == nullptr) rule = find(target_.mcodes);
+  if (rule != nullptr) {
+    if (rule->target != "drop") return WriteWords(rule->target);
+    CommentLine("", word + " left out");
+    return;
+  }
+  const bool common = event.number == 7 || event.number == 8 || event.number == 9 || (event.number == 6 && !lathe_);
+  if (common && event.spindle == 0) return WriteWords(word);
+  if (diag::Diagnostic* diagnostic = Refuse(diag::Code::kUnmappedCode, word)) {
+    diagnostic->help = fmt::format("if the target has it, add to [mcodes] in ncport.toml: {0} = \"{0}\"", word);
+  }
+}
+
+void FlatWriter::Dwell(const exec::Event& event) {
+  const bool turns = event.per_revolution;
+  const dialects::Setting<std::string>& form = turns ? target_.words.dwell_revolutions : target_.words.dwell;
+  const std::string_view words = form.Known() ? std::string_view(*form) : turns ? std::string_view{} : std::string_view("G4 P{seconds}");
+  if (words.empty()) {
+    Refuse(diag::Code::kNotExpressible, "a dwell in revolutions");
+    return;
+  }
+  if (!(std::fabs(event.value) * 1000 < kMaxIncrements)) {
+    Refuse(diag::Code::kOutOfRange, fmt::format("dwell {}", event.value), "what a word can hold");
+    return;
+  }
+  const std::int64_t thousandths = RoundToIncrements(event.value, 1000);
+  if (thousandths == 0 && event.value != 0) {
+    Refuse(diag::Code::kWordTooCoarse, fmt::format("dwell {}", event.value), "3");
+    return;
+  }
+  TextBuffer number;
+  AppendWord(number, ' ', thousandths, 3);
+  const std::string_view text = number.View().substr(1);
+  const Hole holes[] = {{.name = turns ? "revolutions" : "seconds", .number = 0, .text = text}};
+  BeginLine();
+  if (out_.size() != line_begin_) out_.Append(' ');
+  AppendTemplate(out_, words, holes);
+  EndLine();
+}
+
+}  // namespace ncport::backends::iso

@@ -16,8 +16,8 @@ struct Failure {};
 class [[nodiscard]] Status {
  public:
   constexpr Status() = default;
-  constexpr Status(Failure)
-      : ok_(false) {}  // NOLINT(google-explicit-constructor): so that `return Failure{}` reads well
+  // NOLINTNEXTLINE(google-explicit-constructor): so that `return Failure{};` reads well
+  constexpr Status(Failure) : ok_(false) {}
 
   [[nodiscard]] constexpr bool Ok() const { return ok_; }
 
@@ -54,8 +54,10 @@ template <class... Args>
 template <class T>
 class [[nodiscard]] Result {
  public:
-  Result(T value) : value_(std::move(value)) {}  // NOLINT(google-explicit-constructor): `return value;`
-  Result(Failure) {}                             // NOLINT(google-explicit-constructor): `return Failure{};`
+  // NOLINTNEXTLINE(google-explicit-constructor): `return value;`
+  Result(T value) : value_(std::move(value)) {}
+  // NOLINTNEXTLINE(google-explicit-constructor): `return Failure{};`
+  Result(Failure) {}
 
   [[nodiscard]] bool Ok() const { return value_.has_value(); }
 

@@ -42,8 +42,8 @@ class TextBuffer {
     size_ += text.size();
   }
 
-  [[nodiscard]] const char* data() const { return data_.get(); }  // NOLINT(readability-identifier-naming): like std
-  [[nodiscard]] std::size_t size() const { return size_; }        // NOLINT(readability-identifier-naming): like std
+  [[nodiscard]] const char* data() const { return data_.get(); }
+  [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] bool Empty() const { return size_ == 0; }
   [[nodiscard]] std::string_view View() const { return {data_.get(), size_}; }
   /// Drops the text, keeps the memory.

@@ -1,6 +1,6 @@
 # Warnings for our own code: target ncport_warnings. Generated code does not link it.
 add_library(ncport_warnings INTERFACE)
-target_compile_options(ncport_warnings INTERFACE -Wall -Wextra -Wpedantic)
+target_compile_options(ncport_warnings INTERFACE -Wall -Wextra)
 # Options are structs with defaults and named initialisers: leaving a field out is the point.
 target_compile_options(ncport_warnings INTERFACE -Wno-missing-field-initializers)
 if(NCPORT_WERROR)

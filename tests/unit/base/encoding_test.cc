@@ -55,7 +55,7 @@ TEST_CASE("every byte above 127 comes back, also of pages that are only guessed"
   CHECK(RoundTrip(all) == all);
   const std::string gbk = "(\xB5\xB6\xBE\xDF)\n";
   CHECK(RoundTrip(gbk) == gbk);
-  std::mt19937 random(4);  // NOLINT(cert-msc51-cpp): repeatable on purpose
+  std::mt19937 random(4);
   for (int turn = 0; turn < 2000; ++turn) {
     std::string bytes = "X1 ";
     for (unsigned i = random() % 40; i > 0; --i) {
@@ -94,7 +94,7 @@ TEST_CASE("what is not text is refused with the reason") {
   CHECK(DecodeText("\xFF\xFEG\0").binary_reason == "it starts like UTF-16; save it as UTF-8");
   CHECK(DecodeText(std::string(100, '\0')).is_binary);
   std::string noise;
-  std::mt19937 random(5);  // NOLINT(cert-msc51-cpp): repeatable on purpose
+  std::mt19937 random(5);
   for (int i = 0; i < 4000; ++i) noise += static_cast<char>(random());
   CHECK(DecodeText(noise).is_binary);
   CHECK(DecodeText(noise).text.empty());

@@ -222,7 +222,7 @@ TEST_CASE("whole numbers") {
 }
 
 TEST_CASE("random literals: value as strtod, text as written") {
-  std::mt19937_64 random(1);  // NOLINT(cert-msc51-cpp): repeatable on purpose
+  std::mt19937_64 random(1);
   for (int turn = 0; turn < 200000; ++turn) {
     std::string text = random() % 3 == 0 ? "-" : "";
     const std::size_t whole = random() % (turn % 10 == 0 ? 22 : 7);
@@ -244,7 +244,7 @@ TEST_CASE("random literals: value as strtod, text as written") {
 }
 
 TEST_CASE("random values: rounded once, exactly") {
-  std::mt19937_64 random(2);  // NOLINT(cert-msc51-cpp): repeatable on purpose
+  std::mt19937_64 random(2);
   std::uniform_real_distribution<double> exponent(-12, 17);
   for (int turn = 0; turn < 20000; ++turn) {
     const int decimals = static_cast<int>(random() % 13);
@@ -261,7 +261,7 @@ TEST_CASE("random values: rounded once, exactly") {
 }
 
 TEST_CASE("printing with enough decimals and reading gives the value back") {
-  std::mt19937_64 random(3);  // NOLINT(cert-msc51-cpp): repeatable on purpose
+  std::mt19937_64 random(3);
   for (int turn = 0; turn < 50000; ++turn) {
     const double value = static_cast<double>(static_cast<std::int64_t>(random() % 2000000000000) - 1000000000000) / 1e6;
     const std::string text = Trimmed(value, 6);

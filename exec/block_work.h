@@ -1,0 +1,69 @@
+// The words of one block with their values, collected in source order before anything but assignments takes effect.
+#pragma once
+
+#include <cstdint>
+
+#include "exec/value.h"
+#include "ir/modes.h"
+#include "ir/nodes.h"
+
+namespace ncport::exec {
+
+struct BlockWork {
+  /// Which single words the block holds.
+  enum Has : std::uint32_t {
+    kRadius = 1U << 0U,
+    kOpening = 1U << 1U,
+    kTurns = 1U << 2U,
+    kPolarRadius = 1U << 3U,
+    kPolarAngle = 1U << 4U,
+    kChamfer = 1U << 5U,
+    kContourAngle = 1U << 6U,
+    kStartAngle = 1U << 7U,
+    kFeed = 1U << 8U,
+    kFeedOnce = 1U << 9U,
+    kMachineCoords = 1U << 10U,
+    kReference = 1U << 11U,
+    kPole = 1U << 12U,
+    kFrame = 1U << 13U,
+    kFrameAngle = 1U << 14U,
+    kPreset = 1U << 15U,
+    kDwell = 1U << 16U,
+    kExactOnce = 1U << 17U,
+    kOneShotMotion = 1U << 18U,   // a motion word that holds for this block only
+    kMotionWord = 1U << 19U,
+    kSpeed = 1U << 20U,
+  };
+
+  std::uint32_t has = 0;
+  std::uint16_t axes = 0;
+  std::uint16_t rounded = 0;      // axes whose word passes through Machine::word_error
+  std::uint8_t centers = 0;       // bits I J K
+  std::uint8_t vias = 0;
+
+  double axis[ir::kMaxAxes];
+  ir::ValueMode axis_mode[ir::kMaxAxes];
+  double center[3];
+  ir::ValueMode center_mode[3];
+  double via[3];
+  ir::ValueMode via_mode[3];
+  double radius, opening, turns, polar_radius, polar_angle, chamfer, contour_angle, start_angle, feed, feed_once, frame_angle, dwell;
+  ir::ValueMode polar_angle_mode;
+  ir::ChamferKind chamfer_kind;
+  ir::FrameOp frame;
+  ir::ReferenceKind reference;
+  ir::PoleBase pole;
+  bool dwell_revolutions;
+  ir::Motion one_shot;
+
+  [[nodiscard]] bool Has(std::uint32_t bits) const { return (has & bits) != 0; }
+  void Clear() {
+    has = 0;
+    axes = 0;
+    rounded = 0;
+    centers = 0;
+    vias = 0;
+  }
+};
+
+}  // namespace ncport::exec

@@ -1,0 +1,70 @@
+// The state of the machine during a run as far as programs can see or change it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "exec/arc_geometry.h"
+#include "exec/event.h"
+#include "exec/frame.h"
+#include "ir/modes.h"
+
+namespace ncport::exec {
+
+constexpr std::uint16_t AxisBit(std::uint8_t axis) { return static_cast<std::uint16_t>(1U << axis); }
+
+struct Channel {
+  ir::ModalState modal;
+
+  // Position of the last programmed point. `base` is what traces show, `work` is the same point before the frame.
+  double base[ir::kMaxAxes] = {};
+  double work[ir::kMaxAxes] = {};
+  double step_from[ir::kMaxAxes] = {};   // where increments start when they traverse a frame change (Machine)
+  std::uint16_t base_known = 0;
+  std::uint16_t work_known = 0;
+  std::uint16_t uncertain = 0;           // last moved under another work offset or to a probe: good to show, not to compute with
+  std::uint16_t programmed = 0;          // axes of the trace that the run has named
+  Frame frame;
+
+  // Feed: mm/min, mm/rev or 1/min by the mode in which it was written.
+  bool feed_known = false;
+  ir::FeedMode feed_mode = ir::FeedMode::kUnknown;
+  double feed = 0;
+  double thread_change = 0;              // of the lead, per revolution
+
+  // Spindle 0 is the master spindle.
+  static constexpr std::uint8_t kSpindles = 8;
+  struct Spindle {
+    ir::SpindleState state = ir::SpindleState::kUnknown;
+    bool speed_known = false;
+    double speed = 0;                    // 1/min, or m/min in constant surface speed
+    bool limit_known = false;
+    double limit = 0;                    // 1/min
+    double position = 0;                 // degrees
+  };
+  Spindle spindles[kSpindles];
+
+  // Tool.
+  bool tool_known = false;
+  double tool_number = 0;
+  std::string tool_name;
+  bool edge_known = false;
+  double edge = 0;
+
+  // Polar words: pole in the plane of the workpiece system.
+  Point pole;
+  Point last_pole;
+  bool polar_radius_known = false;
+  bool polar_angle_known = false;
+  double polar_radius = 0;
+  double polar_angle = 0;
+
+  // Direction at the end of the last motion in trace coordinates, for tangent arcs.
+  bool direction_known = false;
+  double direction[3] = {};
+
+  double modal_rounding = 0;             // RNDM, mm; 0 = off
+  ir::CutterComp shown_comp = ir::CutterComp::kUnknown;  // side as traces show it: mirrors exchange it
+};
+
+}  // namespace ncport::exec

@@ -20,7 +20,22 @@ constexpr std::string_view kBom = "\xEF\xBB\xBF";
 
 // What tape readers and DNC lines leave in files: NUL, DC1-DC4 (reader and punch on, off), DEL (rubout).
 bool IsTapeByte(unsigned char c) { return c == 0 || (c >= 0x11 && c <= 0x14) || c == 0x7F; }
-bool IsLayout(unsigned char c) { return c >= 0x09 && c <= 0x0D; }
+constexpr bool IsLayout(unsigned char c) { return c >= 0x09 && c <= 0x0D; }
+
+// One look at every byte finds out whether there is anything to do: nearly all files are plain ASCII.
+bool IsPlain(std::string_view bytes) {
+  static constexpr auto kOdd = [] {
+    std::array<bool, 256> odd{};
+    for (unsigned byte = 0; byte < 256; ++byte) {
+      const auto c = static_cast<unsigned char>(byte);
+      odd[byte] = c >= 0x7F || (c < 0x20 && !IsLayout(c));
+    }
+    return odd;
+  }();
+  bool odd = false;
+  for (const char c : bytes) odd |= kOdd[static_cast<unsigned char>(c)];
+  return !odd;
+}
 
 // Binary files are told by what text never has. Tape bytes are no sign of it by themselves: punched leaders are NULs.
 std::string_view BinaryReason(std::string_view bytes) {
@@ -81,19 +96,13 @@ bool HasTapeMark(std::string_view text) {
 
 // Copies `bytes` without tape bytes and the final SUB of DOS editors.
 std::string WithoutControl(std::string_view bytes, DecodedText& decoded) {
-  std::string text;
-  text.reserve(bytes.size());
+  const std::size_t all = bytes.size();
   while (!bytes.empty() && (bytes.back() == '\x1A' || IsTapeByte(static_cast<unsigned char>(bytes.back())))) {
     bytes.remove_suffix(1);
-    ++decoded.control_bytes;
   }
-  for (const char c : bytes) {
-    if (IsTapeByte(static_cast<unsigned char>(c))) {
-      ++decoded.control_bytes;
-    } else {
-      text.push_back(c);
-    }
-  }
+  std::string text{bytes};
+  std::erase_if(text, [](char c) { return IsTapeByte(static_cast<unsigned char>(c)); });
+  decoded.control_bytes = all - text.size();
   return text;
 }
 
@@ -140,6 +149,11 @@ std::string_view NameOf(Encoding encoding) {
 
 DecodedText DecodeText(std::string_view bytes) {
   DecodedText decoded;
+  if (IsPlain(bytes)) {
+    decoded.text = bytes;
+    decoded.had_tape_mark = HasTapeMark(bytes);
+    return decoded;
+  }
   decoded.binary_reason = BinaryReason(bytes);
   if (!decoded.binary_reason.empty()) {
     decoded.is_binary = true;

@@ -1,5 +1,8 @@
 #include "base/utf8.h"
 
+#include <cstdint>
+#include <cstring>
+
 namespace ncport {
 
 Utf8Char FirstUtf8(std::string_view text) {
@@ -25,6 +28,14 @@ Utf8Char FirstUtf8(std::string_view text) {
 
 bool IsValidUtf8(std::string_view text) {
   while (!text.empty()) {
+    std::uint64_t eight = 0;  // most text is ASCII
+    if (text.size() >= sizeof eight) {
+      std::memcpy(&eight, text.data(), sizeof eight);
+      if ((eight & 0x8080808080808080U) == 0) {
+        text.remove_prefix(sizeof eight);
+        continue;
+      }
+    }
     const Utf8Char c = FirstUtf8(text);
     if (!c.valid) return false;
     text.remove_prefix(c.length);

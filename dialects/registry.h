@@ -32,6 +32,18 @@ std::span<const BuiltInProfile> BuiltInProfiles();
 /// A built-in profile; an unknown name is a bug.
 Profile BuiltIn(std::string_view name);
 
+/// What `ncport list profiles` shows of one profile.
+struct ProfileInfo {
+  std::string_view name;
+  Language language;
+  MachineKind machine;
+  std::string title;        // first sentence of the comment at the top of its file
+};
+/// The built-in profiles that can be used as they are, sorted by name.
+std::vector<ProfileInfo> ListProfiles();
+/// First sentence of the comment at the top of a profile text.
+std::string TitleOf(std::string_view text);
+
 /// The language that a file seems to be in, with the reasons ("ending .mpf", "line 3: GOTOF").
 struct LanguageGuess {
   std::vector<Language> languages;   // one: certain; none: nothing speaks for one; two or more: they contradict
@@ -42,6 +54,8 @@ struct LanguageGuess {
   [[nodiscard]] bool Certain() const { return languages.size() == 1; }
 };
 LanguageGuess GuessLanguage(std::string_view file_name, std::string_view text);
+/// The certain language, or a finding at `at` (file without line is fine) that names what speaks for each.
+Result<Language> NeedLanguage(const LanguageGuess& guess, std::string_view file_name, const SourceRange& at, diag::Sink& sink);
 /// Name of the usual profile for a certain guess.
 std::string_view UsualProfile(const LanguageGuess& guess);
 

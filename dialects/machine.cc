@@ -1,0 +1,55 @@
+#include "dialects/machine.h"
+
+#include <string_view>
+
+#include "dialects/fanuc/machine.h"
+#include "dialects/num/machine.h"
+#include "dialects/sinumerik/machine.h"
+
+namespace ncport::dialects {
+namespace {
+
+constexpr std::string_view kAxisLetters = "XYZABCUVW";  // order of ir::Axis
+static_assert(kAxisLetters.size() == ir::kLetterAxes);
+
+/// Bit per axis of the profile. Axes with other names (X1, E) take the bits from kFirstNamedAxis on, in their order.
+std::uint16_t AxisBits(const Profile& profile) {
+  unsigned bits = 0;
+  unsigned named = ir::kFirstNamedAxis;
+  for (const std::string& axis : profile.axes) {
+    const std::size_t letter = axis.size() == 1 ? kAxisLetters.find(axis[0]) : std::string_view::npos;
+    if (letter != std::string_view::npos) {
+      bits |= 1U << letter;
+    } else if (named < ir::kMaxAxes) {
+      bits |= 1U << named++;
+    }
+  }
+  return static_cast<std::uint16_t>(bits);
+}
+
+}  // namespace
+
+ir::Machine MachineFor(const Profile& profile) {
+  ir::Machine machine;
+  machine.axes = AxisBits(profile);
+  machine.lathe = profile.IsLathe();
+  // X is the transverse axis of every lathe here; with `diameter = no` its words are radii and nothing is converted.
+  if (machine.lathe && !profile.diameter.Is(DiameterRule::kNo)) machine.transverse_axis = 0;
+  machine.start = profile.start;
+  machine.numeric_model = profile.numeric_model.Or(ir::NumericModel::kBinary64);
+  machine.word_error = profile.word_error.Or(ir::WordError::kNone);
+  machine.increment = profile.increment.Or(0.001);
+  machine.rapid = profile.rapid.Or(ir::Rapid::kUnknown);
+  machine.call_depth = static_cast<std::uint32_t>(profile.nesting.call.Or(machine.call_depth));
+  machine.passes_max = static_cast<std::uint32_t>(profile.block.max_passes.Or(machine.passes_max));
+  switch (profile.language) {
+    case Language::kSinumerik: sinumerik::FillMachine(profile, machine); break;
+    case Language::kFanuc: fanuc::FillMachine(profile, machine); break;
+    case Language::kNum: num::FillMachine(profile, machine); break;
+    case Language::kLinuxCnc:  // no card yet: what ir::Machine begins with
+    case Language::kIso: break;
+  }
+  return machine;
+}
+
+}  // namespace ncport::dialects

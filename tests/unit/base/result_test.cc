@@ -87,7 +87,8 @@ TEST_CASE("failure leaves the function, values go on") {
 TEST_CASE("a bug says what to report and exits with 70") {
   const auto [code, text] = InChild([] { NCPORT_BUG("block {} has no words", 7); });
   CHECK(code == 70);
-  CHECK(text.starts_with("ncport: internal error: block 7 has no words\n  at tests/unit/base/result_test.cc:"));
+  CHECK(text.starts_with("ncport: internal error: block 7 has no words\n  at "));
+  CHECK(text.find("tests/unit/base/result_test.cc:") != std::string::npos);
   CHECK(text.find("Please report") != std::string::npos);
 }
 

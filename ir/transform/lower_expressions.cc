@@ -1,0 +1,445 @@
+#include "ir/transform/lower_expressions.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "ir/builder.h"
+#include "ir/transform/conditions.h"
+#include "ir/transform/new_local.h"
+#include "ir/transform/program_editor.h"
+
+namespace ncport::ir::transform {
+
+namespace {
+
+class Lowering {
+ public:
+  Lowering(Module& module, ProgramId program, const LowerExpressionsConfig& config, diag::Sink& sink)
+      : module_(module),
+        program_(program),
+        config_(config),
+        sink_(sink),
+        make_(module),
+        editor_(module, program, "lower_expressions") {}
+
+  bool Run();
+
+ private:
+  /// As a number.
+  ExprId Value(ExprId id);
+  /// As a condition: AND, OR, NOT and comparisons stay, their sides become numbers.
+  ExprId Condition(ExprId id);
+  ExprId ValueOfFunction(const Expr& expr);
+  ExprId Truth(ExprId condition);
+  ExprId Simple(ExprId value, std::string_view name);
+  /// An index or an element of a place that is written: its inside is a value.
+  ExprId Place(ExprId id);
+  ExprId List(const Expr& expr);
+
+  void Assign(ExprId place, ExprId value);
+  void If(ExprId condition);
+  void EndIf() { Statement(WordOp::kEndIf, {}, Id<void>::kNone); }
+  void Statement(WordOp op, ExprId value, std::uint32_t extra);
+  ExprId NewValue(std::string_view name) { return make_.Variable(NewLocal(module_, program_, name, Type::kReal)); }
+
+  void LowerBlock(BlockId id);
+  void LowerWhile(BlockId id);
+
+  Module& module_;
+  ProgramId program_;
+  const LowerExpressionsConfig& config_;
+  diag::Sink& sink_;
+  ExprBuilder make_;
+  ProgramEditor editor_;
+  BlockId block_;                  // block being lowered
+  std::vector<Block> statements_;  // that go in front of it
+  std::uint32_t labels_ = 0;
+  bool ok_ = true;
+};
+
+void Lowering::Statement(WordOp op, ExprId value, std::uint32_t extra) {
+  Word word;
+  word.op = op;
+  word.phase = DefaultPhaseOf(op);
+  word.value = value;
+  word.extra = extra;
+  Block made = editor_.MakeBlock(block_);
+  made.skip_level = IsStructureMark(op) ? Block::kNoSkip : module_.blocks[block_].skip_level;
+  editor_.SetWords(made, {word});
+  statements_.push_back(made);
+}
+
+void Lowering::Assign(ExprId place, ExprId value) { Statement(WordOp::kAssign, value, place.value); }
+void Lowering::If(ExprId condition) { Statement(WordOp::kIf, condition, Id<void>::kNone); }
+
+ExprId Lowering::Simple(ExprId value, std::string_view name) {
+  if (IsSimplePlace(module_, value)) return value;
+  const ExprId held = NewValue(name);
+  Assign(held, value);
+  return held;
+}
+
+ExprId Lowering::Truth(ExprId condition) {
+  const ExprId inner = Condition(condition);
+  const ExprId value = NewValue("TRUTH");
+  Assign(value, make_.Literal(0));
+  If(inner);
+  Assign(value, make_.Literal(1));
+  EndIf();
+  return value;
+}
+
+ExprId Lowering::Condition(ExprId id) {
+  const Expr expr = module_.exprs[id];
+  switch (expr.op) {
+    case ExprOp::kGroup:
+      return make_.Unary(ExprOp::kGroup, Condition(ExprId{expr.a}));
+    case ExprOp::kNot:
+      return make_.Unary(ExprOp::kNot, Condition(ExprId{expr.a}));
+    case ExprOp::kConvert:
+      if (expr.type == Type::kBool) return Condition(ExprId{expr.a});
+      break;
+    case ExprOp::kAnd:
+    case ExprOp::kOr: {
+      const ExprId left = Condition(ExprId{expr.a});
+      return make_.Binary(expr.op, left, Condition(ExprId{expr.b}));
+    }
+    case ExprOp::kXor: {
+      // Two truth values that differ; as numbers they are 0 or 1 each.
+      const ExprId left = Truth(ExprId{expr.a});
+      return make_.Binary(ExprOp::kNotEqual, left, Truth(ExprId{expr.b}));
+    }
+    default:
+      if (IsComparison(expr.op)) {
+        const ExprId left = Value(ExprId{expr.a});
+        return make_.Binary(expr.op, left, Value(ExprId{expr.b}), expr.flags);
+      }
+      break;
+  }
+  return Value(id);
+}
+
+ExprId Lowering::List(const Expr& expr) {
+  std::vector<ExprId> items;
+  for (std::uint32_t i = 0; i < expr.count; ++i) items.push_back(Value(module_.Item(expr.b + i)));
+  Expr copy = expr;
+  copy.b = static_cast<std::uint32_t>(module_.expr_items.size());
+  module_.expr_items.insert(module_.expr_items.end(), items.begin(), items.end());
+  return module_.AddExpr(copy);
+}
+
+ExprId Lowering::ValueOfFunction(const Expr& expr) {
+  const auto argument = [&](std::uint32_t i) { return module_.Item(expr.b + i); };
+  switch (static_cast<Function>(expr.a)) {
+    case Function::kMinimum:
+    case Function::kMaximum: {
+      if (config_.has_min_max) break;
+      const ExprId result = NewValue(static_cast<Function>(expr.a) == Function::kMinimum ? "SMALLER" : "LARGER");
+      const ExprId first = Value(argument(0));
+      const ExprId second = Simple(Value(argument(1)), "OTHER");
+      Assign(result, first);
+      If(make_.Binary(static_cast<Function>(expr.a) == Function::kMinimum ? ExprOp::kLess : ExprOp::kGreater, second,
+                      result));
+      Assign(result, second);
+      EndIf();
+      return result;
+    }
+    case Function::kBound: {
+      if (config_.has_min_max) break;
+      const ExprId low = Simple(Value(argument(0)), "LOW");
+      const ExprId high = Simple(Value(argument(1)), "HIGH");
+      const ExprId result = NewValue("BOUNDED");
+      Assign(result, Value(argument(2)));
+      If(make_.Binary(ExprOp::kLess, result, low));
+      Assign(result, low);
+      EndIf();
+      If(make_.Binary(ExprOp::kGreater, result, high));
+      Assign(result, high);
+      EndIf();
+      return result;
+    }
+    case Function::kRoundUp: {
+      if (config_.has_round_up) break;
+      const ExprId value = Simple(Value(argument(0)), "VALUE");
+      const ExprId result = NewValue("ROUNDED_UP");
+      Assign(result, make_.Function(Function::kTruncate, {value}));
+      If(make_.Binary(ExprOp::kLess, result, value));
+      Assign(result, make_.Binary(ExprOp::kAdd, result, make_.Literal(1)));
+      EndIf();
+      return result;
+    }
+    case Function::kSquare: {
+      if (config_.has_square) break;
+      const ExprId value = Simple(Value(argument(0)), "VALUE");
+      return make_.Unary(ExprOp::kGroup, make_.Binary(ExprOp::kMultiply, value, value));
+    }
+    case Function::kAtan2:
+    case Function::kAsin: {
+      const bool atan = static_cast<Function>(expr.a) == Function::kAtan2;
+      if (atan ? config_.signed_atan2 : config_.signed_asin) break;
+      // The target's angle may run from 0 to 360: what lies above 180 is the negative angle.
+      const ExprId result = NewValue("ANGLE");
+      if (atan) {
+        const ExprId across = Value(argument(0));
+        Assign(result, make_.Function(Function::kAtan2Positive, {across, Value(argument(1))}));
+      } else {
+        Assign(result, make_.Function(Function::kAsin, {Value(argument(0))}));
+      }
+      If(make_.Binary(ExprOp::kGreater, result, make_.Literal(180)));
+      Assign(result, make_.Binary(ExprOp::kSubtract, result, make_.Literal(360)));
+      EndIf();
+      return result;
+    }
+    default:
+      break;
+  }
+  return List(expr);
+}
+
+ExprId Lowering::Value(ExprId id) {
+  const Expr expr = module_.exprs[id];
+  if (!config_.truth_values && IsTruth(module_, id)) return Truth(id);
+  switch (expr.op) {
+    case ExprOp::kFunction:
+      return ValueOfFunction(expr);
+    case ExprOp::kConvert: {
+      const Expr& inner = module_.exprs[ExprId{expr.a}];
+      if (expr.type == Type::kBool) {
+        // Any number but 0 is true, and a truth value that is used as a number is 1.
+        if (inner.type == Type::kBool) return Value(ExprId{expr.a});
+        return Truth(make_.Binary(ExprOp::kNotEqual, ExprId{expr.a}, make_.Literal(0)));
+      }
+      const ExprId value = Value(ExprId{expr.a});
+      const bool whole = expr.type == Type::kInt || expr.type == Type::kChar;
+      if (!whole || IsIntegral(module_, ExprId{expr.a})) return value;
+      return make_.Function((expr.flags & Expr::kRoundCut) != 0 ? Function::kTruncate : Function::kRound, {value});
+    }
+    case ExprOp::kDivideInteger:
+    case ExprOp::kModulo: {
+      if (expr.op == ExprOp::kDivideInteger ? config_.has_integer_quotient : config_.has_modulo) break;
+      ExprId left = Value(ExprId{expr.a});
+      ExprId right = Value(ExprId{expr.b});
+      if ((expr.flags & Expr::kOperandsToInt) != 0) {
+        left = make_.Function(Function::kRound, {left});
+        right = make_.Function(Function::kRound, {right});
+      }
+      if (expr.op == ExprOp::kModulo) {
+        left = Simple(left, "DIVIDEND");
+        right = Simple(right, "DIVISOR");
+      }
+      const ExprId quotient = make_.Function(Function::kTruncate, {make_.Binary(ExprOp::kDivide, left, right)});
+      if (expr.op == ExprOp::kDivideInteger) return quotient;
+      return make_.Unary(ExprOp::kGroup,
+                         make_.Binary(ExprOp::kSubtract, left, make_.Binary(ExprOp::kMultiply, right, quotient)));
+    }
+    case ExprOp::kBitNot:
+      return make_.Unary(ExprOp::kGroup, make_.Binary(ExprOp::kSubtract, make_.Literal(-1), Value(ExprId{expr.a})));
+    default:
+      break;
+  }
+  Expr copy = expr;
+  switch (OperandsOf(expr.op)) {
+    case Operands::kLeaf:
+      return id;
+    case Operands::kUnary:
+      copy.a = Value(ExprId{expr.a}).value;
+      return copy.a == expr.a ? id : module_.AddExpr(copy, module_.expr_places[id.value]);
+    case Operands::kBinary:
+      copy.a = Value(ExprId{expr.a}).value;
+      copy.b = Value(ExprId{expr.b}).value;
+      return copy.a == expr.a && copy.b == expr.b ? id : module_.AddExpr(copy, module_.expr_places[id.value]);
+    case Operands::kList:
+      return List(expr);
+  }
+  return id;
+}
+
+ExprId Lowering::Place(ExprId id) {
+  const Expr expr = module_.exprs[id];
+  return expr.op == ExprOp::kCellAt || expr.op == ExprOp::kElement ? Value(id) : id;
+}
+
+/// WHILE c .. ENDWHILE with statements for c: LOOP, statements, jump out when c is false, .. ENDLOOP.
+void Lowering::LowerWhile(BlockId id) {
+  const Block block = module_.blocks[id];
+  const Word word = module_.words[block.words[0]];
+  std::vector<Block> outer = std::exchange(statements_, {});
+  const ExprId condition = Condition(word.value);
+  std::vector<Block> inner = std::exchange(statements_, std::move(outer));
+  if (inner.empty()) {
+    module_.words[block.words[0]].value = condition;
+    return;
+  }
+  const std::string label = fmt::format("NCPORT_OUT_{}", ++labels_);
+  Word loop;
+  loop.op = WordOp::kLoop;
+  loop.phase = DefaultPhaseOf(WordOp::kLoop);
+  module_.words[block.words[0]] = loop;
+  Jump jump;
+  jump.target.label = module_.strings.Intern(label);
+  jump.search = Search::kForward;
+  Word out;
+  out.op = WordOp::kJump;
+  out.phase = DefaultPhaseOf(WordOp::kJump);
+  out.value = make_.Unary(ExprOp::kNot, make_.Unary(ExprOp::kGroup, condition));
+  out.extra = module_.jumps.Add(jump).value;
+  Block leave = editor_.MakeBlock(id);
+  editor_.SetWords(leave, {out});
+  inner.push_back(leave);
+  for (const Block& made : inner) editor_.InsertAfter(id, made);
+  module_.words[module_.blocks[block.link].words[0]].op = WordOp::kEndLoop;
+  Block behind = editor_.MakeBlock(block.link);
+  behind.label = jump.target.label;
+  editor_.InsertAfter(block.link, behind);
+}
+
+void Lowering::LowerBlock(BlockId id) {
+  block_ = id;
+  statements_.clear();
+  const Block block = module_.blocks[id];
+  for (const WordId word_id : block.words) {
+    const Word word = module_.words[word_id];
+    ExprId value = word.value;
+    std::uint32_t extra = word.extra;
+    switch (word.op) {
+      case WordOp::kMessage:
+      case WordOp::kPrint:
+      case WordOp::kAlarm:
+      case WordOp::kHeader:
+      case WordOp::kExtern:
+      case WordOp::kVerbatim:
+      case WordOp::kWorkpiece:
+        continue;  // texts; they have passes of their own
+      case WordOp::kIf:
+      case WordOp::kUntil:
+      case WordOp::kJump:
+      case WordOp::kWhen:
+        if (value.Valid()) value = Condition(value);
+        break;
+      case WordOp::kWhile:
+        LowerWhile(id);
+        continue;
+      case WordOp::kFor: {
+        value = Value(value);
+        const ExprId end = Value(module_.fors[word.Extra<ForId>()].end);
+        module_.fors[word.Extra<ForId>()].end = end;
+        break;
+      }
+      case WordOp::kSwitch: {
+        value = Value(value);
+        const Switch cases = module_.switches[word.Extra<SwitchId>()];
+        for (std::uint32_t i = 0; i < cases.arm_count; ++i) {
+          SwitchArm& arm = module_.switch_arms[cases.first_arm + i];
+          const ExprId arm_value = arm.value.Valid() ? Value(arm.value) : ExprId{};
+          module_.switch_arms[cases.first_arm + i].value = arm_value;
+        }
+        break;
+      }
+      case WordOp::kAssign:
+        extra = Place(word.Extra<ExprId>()).value;
+        value = Value(value);
+        break;
+      case WordOp::kCall:
+      case WordOp::kModalCall: {
+        if (!word.Extra<CallId>().Valid()) break;
+        const Call call = module_.calls[word.Extra<CallId>()];
+        for (const ArgId arg : call.args) {
+          const ExprId given = module_.args[arg].value;
+          if (given.Valid()) {
+            const ExprId lowered = Value(given);
+            module_.args[arg].value = lowered;
+          }
+        }
+        if (call.passes.Valid()) {
+          const ExprId passes = Value(call.passes);
+          module_.calls[word.Extra<CallId>()].passes = passes;
+        }
+        break;
+      }
+      case WordOp::kDefine: {
+        const ExprId initial = module_.variables[word.Extra<VariableId>()].initial;
+        if (initial.Valid()) {
+          const ExprId lowered = Value(initial);
+          module_.variables[word.Extra<VariableId>()].initial = lowered;
+        }
+        break;
+      }
+      default:
+        if (value.Valid() && module_.exprs[value].type != Type::kString) value = Value(value);
+        break;
+    }
+    module_.words[word_id].value = value;
+    module_.words[word_id].extra = extra;
+  }
+  if (statements_.empty()) return;
+  // The statements take over the place that jumps go to.
+  Block& first = statements_.front();
+  first.label = block.label;
+  first.number = block.number;
+  first.number_digits = block.number_digits;
+  module_.blocks[id].label = {};
+  module_.blocks[id].number = Block::kNoNumber;
+  for (const Block& made : statements_) editor_.InsertBefore(id, made);
+}
+
+bool Lowering::Run() {
+  for (const BlockId id : module_.programs[program_].blocks) LowerBlock(id);
+  editor_.Apply();
+  return ok_ && !sink_.HasErrors();
+}
+
+}  // namespace
+
+bool IsIntegral(const Module& module, ExprId id) {
+  const Expr& expr = module.exprs[id];
+  switch (expr.op) {
+    case ExprOp::kLiteral:
+      return expr.number == std::floor(expr.number);
+    case ExprOp::kVariable:
+    case ExprOp::kElement:
+      return expr.type == Type::kInt || expr.type == Type::kBool || expr.type == Type::kChar;
+    case ExprOp::kConvert:
+      return expr.type == Type::kInt || expr.type == Type::kBool || expr.type == Type::kChar ||
+             IsIntegral(module, ExprId{expr.a});
+    case ExprOp::kGroup:
+    case ExprOp::kNegate:
+    case ExprOp::kPlus:
+      return IsIntegral(module, ExprId{expr.a});
+    case ExprOp::kAdd:
+    case ExprOp::kSubtract:
+    case ExprOp::kMultiply:
+      return IsIntegral(module, ExprId{expr.a}) && IsIntegral(module, ExprId{expr.b});
+    case ExprOp::kDivideInteger:
+    case ExprOp::kBitAnd:
+    case ExprOp::kBitOr:
+    case ExprOp::kBitXor:
+    case ExprOp::kBitNot:
+      return true;
+    case ExprOp::kModulo:
+      return IsIntegral(module, ExprId{expr.a}) && IsIntegral(module, ExprId{expr.b});
+    case ExprOp::kFunction:
+      switch (static_cast<Function>(expr.a)) {
+        case Function::kTruncate:
+        case Function::kRound:
+        case Function::kRoundUp:
+        case Function::kRoundAway:
+          return true;
+        case Function::kAbs:
+        case Function::kSquare:
+          return IsIntegral(module, module.Item(expr.b));
+        default:
+          return false;
+      }
+    default:
+      return IsTruth(module, id);
+  }
+}
+
+bool LowerExpressions(Module& module, ProgramId program, const LowerExpressionsConfig& config, diag::Sink& sink) {
+  return Lowering(module, program, config, sink).Run();
+}
+
+}  // namespace ncport::ir::transform

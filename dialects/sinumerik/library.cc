@@ -15,12 +15,10 @@ constexpr std::string_view kInfeeds = "taps in several infeeds, whose speeds and
 constexpr std::string_view kTechnology = "sets exact stop, feed forward and spindle operation";
 
 constexpr LibraryLimit kLimits[] = {
-    {"CYCLE81", "DTB", 5, kDwell},           {"CYCLE81", "_GMODE", 6, kGeometry},
-    {"CYCLE81", "_DMODE", 7, kDisplay},      {"CYCLE81", "_AMODE", 8, kAmounts},
-    {"CYCLE82", "_GMODE", 6, kGeometry},     {"CYCLE82", "_DMODE", 7, kDisplay},
-    {"CYCLE82", "_AMODE", 8, kAmounts},      {"CYCLE83", "_GMODE", 17, kGeometry},
-    {"CYCLE83", "_DMODE", 18, kDisplay},     {"CYCLE83", "_AMODE", 19, kAmounts},
-    {"CYCLE84", "_TECHNO", 14, kTechnology}, {"CYCLE84", "_VARI", 15, kInfeeds},
+    {"CYCLE81", "DTB", 5, kDwell},       {"CYCLE81", "_GMODE", 6, kGeometry},     {"CYCLE81", "_DMODE", 7, kDisplay},
+    {"CYCLE81", "_AMODE", 8, kAmounts},  {"CYCLE82", "_GMODE", 6, kGeometry},     {"CYCLE82", "_DMODE", 7, kDisplay},
+    {"CYCLE82", "_AMODE", 8, kAmounts},  {"CYCLE83", "_GMODE", 17, kGeometry},    {"CYCLE83", "_DMODE", 18, kDisplay},
+    {"CYCLE83", "_AMODE", 19, kAmounts}, {"CYCLE84", "_TECHNO", 14, kTechnology}, {"CYCLE84", "_VARI", 15, kInfeeds},
 };
 
 constexpr char Upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }

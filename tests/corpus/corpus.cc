@@ -1,6 +1,8 @@
-// ncport_corpus BINARY CORPUS RECORD: reads and checks every real program of the shared corpus whose language can be read.
-// No crash, no endless run; how many of the blocks are understood is printed and must not fall below RECORD, a file with a
-// line "language understood blocks" each. Prints one line and passes when the corpus is not there.
+// ncport_corpus BINARY CORPUS RECORD: reads and checks every real program of the shared corpus whose language can be
+// read. No crash, no endless run; how many of the blocks are understood is printed and must not fall below RECORD, a
+// file with a line "language understood blocks" each. Prints one line and passes when the corpus is not there.
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -10,8 +12,6 @@
 #include <sstream>
 #include <string>
 #include <vector>
-
-#include <nlohmann/json.hpp>
 
 #include "tests/tools/process.h"
 
@@ -23,9 +23,9 @@ namespace fs = std::filesystem;
 constexpr double kSecondsPerFile = 20;
 
 struct Folder {
-  const char* name;                     // below the corpus
+  const char* name;  // below the corpus
   const char* profile;
-  std::vector<std::string> endings;     // lower case; empty: every file but documents
+  std::vector<std::string> endings;  // lower case; empty: every file but documents
 };
 
 std::vector<Folder> Folders() {
@@ -33,7 +33,8 @@ std::vector<Folder> Folders() {
 }
 
 std::string Lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
 }
 
@@ -42,7 +43,8 @@ std::vector<fs::path> Programs(const fs::path& root, const Folder& folder) {
   for (const auto& entry : fs::recursive_directory_iterator(root / folder.name)) {
     if (!entry.is_regular_file()) continue;
     const std::string ending = Lower(entry.path().extension().string());
-    if (std::find(folder.endings.begin(), folder.endings.end(), ending) != folder.endings.end()) files.push_back(entry.path());
+    if (std::find(folder.endings.begin(), folder.endings.end(), ending) != folder.endings.end())
+      files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
   return files;
@@ -81,12 +83,15 @@ int Main(const std::string& binary, const fs::path& corpus, const std::string& r
     Count& count = counts[folder.name];
     for (const fs::path& file : Programs(corpus, folder)) {
       const std::string name = fs::relative(file, corpus).string();
-      const ProcessResult run = RunProcess({binary, "check", file.string(), "--from", folder.profile, "--format", "json", "--fail-on", "never"}, {}, kSecondsPerFile);
+      const ProcessResult run = RunProcess(
+          {binary, "check", file.string(), "--from", folder.profile, "--format", "json", "--fail-on", "never"}, {},
+          kSecondsPerFile);
       ++count.files;
       count.seconds += run.seconds;
       count.longest = std::max(count.longest, run.seconds);
       if (!run.Clean() || run.exit_code == 70) {
-        fail(name + ": " + (run.timed_out ? "time limit" : "ended with code " + std::to_string(run.exit_code)) + "\n" + Tail(run.errors, 5));
+        fail(name + ": " + (run.timed_out ? "time limit" : "ended with code " + std::to_string(run.exit_code)) + "\n" +
+             Tail(run.errors, 5));
         continue;
       }
       const nlohmann::json report = nlohmann::json::parse(run.output, nullptr, false);
@@ -116,13 +121,18 @@ int Main(const std::string& binary, const fs::path& corpus, const std::string& r
     record[language] = understood;
   }
   for (const auto& [language, count] : counts) {
-    std::printf("%s: %ld of %ld blocks understood (%.1f %%) in %ld files, %.1f s, longest %.2f s\n", language.c_str(), count.understood,
-                count.blocks, count.blocks == 0 ? 0.0 : 100.0 * static_cast<double>(count.understood) / static_cast<double>(count.blocks),
-                count.files, count.seconds, count.longest);
+    std::printf(
+        "%s: %ld of %ld blocks understood (%.1f %%) in %ld files, %.1f s, longest %.2f s\n", language.c_str(),
+        count.understood, count.blocks,
+        count.blocks == 0 ? 0.0 : 100.0 * static_cast<double>(count.understood) / static_cast<double>(count.blocks),
+        count.files, count.seconds, count.longest);
     if (count.files == 0) fail(language + ": no file was found");
     if (!record.contains(language)) fail(language + ": no number in " + record_file);
-    if (count.understood < record[language]) fail(language + ": fell below the recorded " + std::to_string(record[language]));
-    if (count.understood > record[language]) std::printf("%s: more than recorded; write %ld into %s\n", language.c_str(), count.understood, record_file.c_str());
+    if (count.understood < record[language])
+      fail(language + ": fell below the recorded " + std::to_string(record[language]));
+    if (count.understood > record[language])
+      std::printf("%s: more than recorded; write %ld into %s\n", language.c_str(), count.understood,
+                  record_file.c_str());
   }
   return failed == 0 ? 0 : 1;
 }

@@ -1,6 +1,6 @@
-// ncport_golden BINARY FOLDER CODES [--update [PART OF A NAME]]: runs each FOLDER/**/*.case and compares what ncport says and writes.
-// README.md has the form of a case. Also: each diagnostic of CODES (base/diag/codes.def) stands in a case, or in uncovered.txt,
-// which may only shrink. Nothing is rewritten without --update.
+// ncport_golden BINARY FOLDER CODES [--update [PART OF A NAME]]: runs each FOLDER/**/*.case and compares what ncport
+// says and writes. README.md has the form of a case. Also: each diagnostic of CODES (base/diag/codes.def) stands in a
+// case, or in uncovered.txt, which may only shrink. Nothing is rewritten without --update.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -57,7 +57,8 @@ Case ReadCase(const std::string& text) {
 
 std::string WriteCase(const Case& one) {
   std::string text = one.note;
-  for (const Part& part : one.parts) text += "=== " + part.kind + (part.name.empty() ? "" : ": " + part.name) + "\n" + part.text;
+  for (const Part& part : one.parts)
+    text += "=== " + part.kind + (part.name.empty() ? "" : ": " + part.name) + "\n" + part.text;
   return text;
 }
 
@@ -110,7 +111,8 @@ std::optional<Case> Produce(const std::string& binary, const Case& asked, std::s
   words.insert(words.begin(), binary);
   const ProcessResult done = RunProcess(words, {}, 60, folder.Path());
   if (!done.Clean()) {
-    why = done.timed_out ? "took more than a minute" : "ended by a signal, code " + std::to_string(done.exit_code) + "\n" + Tail(done.errors, 5);
+    why = done.timed_out ? "took more than a minute"
+                         : "ended by a signal, code " + std::to_string(done.exit_code) + "\n" + Tail(done.errors, 5);
     return std::nullopt;
   }
   if (!done.output.empty()) result.parts.push_back({"stdout", "", WithLineEnd(done.output)});
@@ -122,7 +124,8 @@ std::optional<Case> Produce(const std::string& binary, const Case& asked, std::s
     if (entry.is_regular_file() && asked.Find("file", name) == nullptr) written.push_back(name);
   }
   std::sort(written.begin(), written.end());
-  for (const std::string& name : written) result.parts.push_back({"written", name, WithLineEnd(ReadFileOrDie(folder.File(name)))});
+  for (const std::string& name : written)
+    result.parts.push_back({"written", name, WithLineEnd(ReadFileOrDie(folder.File(name)))});
   result.parts.push_back({"exit", std::to_string(done.exit_code), ""});
   return result;
 }
@@ -135,7 +138,8 @@ std::string FirstDifference(const std::string& expected, const std::string& actu
     const bool has_a = static_cast<bool>(std::getline(left, a)), has_b = static_cast<bool>(std::getline(right, b));
     if (!has_a && !has_b) return "the same but for line ends";
     if (has_a != has_b || a != b) {
-      return "line " + std::to_string(line) + "\n  expected: " + (has_a ? a : "(end)") + "\n  actual:   " + (has_b ? b : "(end)");
+      return "line " + std::to_string(line) + "\n  expected: " + (has_a ? a : "(end)") +
+             "\n  actual:   " + (has_b ? b : "(end)");
     }
   }
 }
@@ -147,7 +151,8 @@ std::set<std::string> CodesIn(const std::string& text) {
   return codes;
 }
 
-int Main(const std::string& binary, const fs::path& folder, const std::string& codes_file, bool update, const std::string& only) {
+int Main(const std::string& binary, const fs::path& folder, const std::string& codes_file, bool update,
+         const std::string& only) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     if (entry.path().extension() == ".case") files.push_back(entry.path());

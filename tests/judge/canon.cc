@@ -27,10 +27,21 @@ std::vector<std::string> Arguments(const std::string& inside) {
 }
 
 /// Calls that say nothing about what the machine does, or only prepare a call that does.
-constexpr std::string_view kSilent[] = {"COMMENT",        "MESSAGE",        "USE_LENGTH_UNITS",      "SET_G5X_OFFSET",
-                                        "SET_G92_OFFSET", "SET_XY_ROTATION", "SET_FEED_REFERENCE",   "ON_RESET",
-                                        "SELECT_TOOL",    "START_CHANGE",   "USE_TOOL_LENGTH_OFFSET", "SET_SPINDLE_MODE",
-                                        "PALLET_SHUTTLE", "SET_MOTION_CONTROL_MODE", "SET_NAIVECAM_TOLERANCE"};
+constexpr std::string_view kSilent[] = {"COMMENT",
+                                        "MESSAGE",
+                                        "USE_LENGTH_UNITS",
+                                        "SET_G5X_OFFSET",
+                                        "SET_G92_OFFSET",
+                                        "SET_XY_ROTATION",
+                                        "SET_FEED_REFERENCE",
+                                        "ON_RESET",
+                                        "SELECT_TOOL",
+                                        "START_CHANGE",
+                                        "USE_TOOL_LENGTH_OFFSET",
+                                        "SET_SPINDLE_MODE",
+                                        "PALLET_SHUTTLE",
+                                        "SET_MOTION_CONTROL_MODE",
+                                        "SET_NAIVECAM_TOLERANCE"};
 
 std::string Text(double value) {
   char buffer[64];
@@ -120,7 +131,8 @@ class Reader {
     TraceEvent event;
     event.kind = kind;
     for (std::size_t i = 0; i < kCanonAxes; ++i) event.axes[i] = at_[i];
-    if (event.kind != "RAPID" && event.kind != "THREAD") event.feed = Text(feed_) + (inverse_ ? "/t" : per_revolution_ ? "/r" : "");
+    if (event.kind != "RAPID" && event.kind != "THREAD")
+      event.feed = Text(feed_) + (inverse_ ? "/t" : per_revolution_ ? "/r" : "");
     return event;
   }
   void Add(TraceEvent event, const std::string& rest) {
@@ -142,14 +154,14 @@ class Reader {
   bool spindle_stops_ = false;
 };
 
-/// A trace reduced to what both sides know: full positions from 0 on, no standing moves, spindle and coolant as state of
-/// each cut: rs274 stops both at its end and the spindle at tool changes by itself.
+/// A trace reduced to what both sides know: full positions from 0 on, no standing moves, spindle and coolant as state
+/// of each cut: rs274 stops both at its end and the spindle at tool changes by itself.
 struct Step {
-  std::string text;               // the line, for messages
+  std::string text;  // the line, for messages
   std::string kind;
   std::array<double, 9> at{};
   TraceEvent event;
-  std::string state;              // of spindle and coolant at cuts: "CW 1000 M8"
+  std::string state;  // of spindle and coolant at cuts: "CW 1000 M8"
 };
 
 std::vector<Step> Steps(const Trace& trace) {
@@ -161,12 +173,14 @@ std::vector<Step> Steps(const Trace& trace) {
     Step step{event.line, event.kind, at, event, {}};
     if (event.kind.rfind("SPINDLE", 0) == 0) {
       const std::string rest = event.line.substr(event.kind.size() + 1);
-      (rest.rfind("RPM", 0) == 0 ? speed : sense) = rest.rfind("RPM", 0) == 0 ? Text(std::strtod(rest.c_str() + 4, nullptr)) : rest;
+      (rest.rfind("RPM", 0) == 0 ? speed : sense) =
+          rest.rfind("RPM", 0) == 0 ? Text(std::strtod(rest.c_str() + 4, nullptr)) : rest;
       continue;
     }
     flood = event.kind == "M8" || (flood && event.kind != "M9" && event.kind != "FLOOD_OFF");
     mist = event.kind == "M7" || (mist && event.kind != "M9" && event.kind != "MIST_OFF");
-    static constexpr std::string_view compared[] = {"RAPID", "LINE", "ARC", "THREAD", "DWELL", "TOOL", "STOP", "OPTSTOP", "END"};
+    static constexpr std::string_view compared[] = {"RAPID", "LINE", "ARC",     "THREAD", "DWELL",
+                                                    "TOOL",  "STOP", "OPTSTOP", "END"};
     if (std::find(std::begin(compared), std::end(compared), event.kind) == std::end(compared)) continue;
     if (event.IsMove()) {
       bool moves = event.kind != "RAPID" && event.kind != "LINE";
@@ -184,7 +198,9 @@ std::vector<Step> Steps(const Trace& trace) {
   return steps;
 }
 
-bool Near(double a, double b) { return std::abs(a - b) <= std::max(kTolerance, 1e-6 * std::max(std::abs(a), std::abs(b))); }
+bool Near(double a, double b) {
+  return std::abs(a - b) <= std::max(kTolerance, 1e-6 * std::max(std::abs(a), std::abs(b)));
+}
 
 bool SameFeed(const std::string& a, const std::string& b) {
   char* a_end = nullptr;
@@ -200,13 +216,15 @@ bool Same(const Step& ours, const Step& judge) {
   }
   const TraceEvent &a = ours.event, &b = judge.event;
   if (ours.kind == "DWELL" || ours.kind == "TOOL") {
-    return Near(std::strtod(a.line.c_str() + a.kind.size(), nullptr), std::strtod(b.line.c_str() + b.kind.size(), nullptr));
+    return Near(std::strtod(a.line.c_str() + a.kind.size(), nullptr),
+                std::strtod(b.line.c_str() + b.kind.size(), nullptr));
   }
   if (ours.kind == "ARC") {
     if (a.clockwise != b.clockwise || a.plane != b.plane || a.turns != b.turns) return false;
     if (!Near(a.center[0], b.center[0]) || !Near(a.center[1], b.center[1])) return false;
   }
-  if (ours.kind == "THREAD") return Near(a.pitch, b.pitch) && a.start == 0 && a.change == 0 && ours.state == judge.state;
+  if (ours.kind == "THREAD")
+    return Near(a.pitch, b.pitch) && a.start == 0 && a.change == 0 && ours.state == judge.state;
   if (ours.kind == "LINE" || ours.kind == "ARC") return SameFeed(a.feed, b.feed) && ours.state == judge.state;
   return true;
 }
@@ -241,9 +259,11 @@ std::string ReasonNotToAsk(const Trace& trace) {
     if (event.kind == "ALARM") return "ends in an alarm, so there is no flat program";
     if (event.kind == "TAP") return "TAP: rs274 has no tapping of this kind";
     if (event.kind == "PROBE") return "PROBE: needs a probe";
-    if (event.kind == "RAPID MCS" || event.kind == "REFPOINT") return event.kind + ": machine positions are unknown to ncport and 0 to rs274";
+    if (event.kind == "RAPID MCS" || event.kind == "REFPOINT")
+      return event.kind + ": machine positions are unknown to ncport and 0 to rs274";
     if (event.kind == "DWELL" && event.line.ends_with("/r")) return "DWELL in revolutions: rs274 knows seconds";
-    if (event.kind == "THREAD" && (event.start != 0 || event.change != 0)) return "THREAD with start angle or variable pitch: not in rs274";
+    if (event.kind == "THREAD" && (event.start != 0 || event.change != 0))
+      return "THREAD with start angle or variable pitch: not in rs274";
     for (const char* word : {"SPINDLE POS", "SPINDLE CSS", "SPINDLE LIMIT", "SPINDLE2"}) {
       if (event.line.rfind(word, 0) == 0) return std::string(word) + ": not compared with rs274";
     }
@@ -259,7 +279,8 @@ std::optional<std::string> CompareWithCanon(const Trace& trace, const Trace& can
   for (std::size_t i = 0; i < std::max(ours.size(), judge.size()); ++i) {
     if (i < ours.size() && i < judge.size() && Same(ours[i], judge[i])) continue;
     std::string text = "step " + std::to_string(i + 1);
-    text += "\n  ncport: " + (i < ours.size() ? ours[i].text + (ours[i].state.empty() ? "" : "  [" + ours[i].state + "]") : "(nothing)");
+    text += "\n  ncport: " +
+            (i < ours.size() ? ours[i].text + (ours[i].state.empty() ? "" : "  [" + ours[i].state + "]") : "(nothing)");
     text += "\n  rs274:  ";
     if (i < judge.size()) {
       text += judge[i].text + (judge[i].event.feed.empty() ? "" : " F" + judge[i].event.feed) +

@@ -1,8 +1,8 @@
-// ncport_judge BINARY RS274 SOURCE: asks rs274, the stand-alone interpreter of LinuxCNC, whether it sees the same motions.
-// Each mill sample and each passing mill vector is flattened to iso-mill (five decimals, cutter compensation taken out, since
-// rs274 prints the compensated path) and run by rs274; its canonical calls must agree with the trace of the source program.
-// All mill samples and at least 80 % of the passing mill vectors must be given to it, and all that is given must agree;
-// what is not given is listed with the reason.
+// ncport_judge BINARY RS274 SOURCE: asks rs274, the stand-alone interpreter of LinuxCNC, whether it sees the same
+// motions. Each mill sample and each passing mill vector is flattened to iso-mill (five decimals, cutter compensation
+// taken out, since rs274 prints the compensated path) and run by rs274; its canonical calls must agree with the trace
+// of the source program. All mill samples and at least 80 % of the passing mill vectors must be given to it, and all
+// that is given must agree; what is not given is listed with the reason.
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -39,7 +39,8 @@ class Judge {
   Judge(std::string binary, std::string rs274) : binary_(std::move(binary)), rs274_(std::move(rs274)) {
     // Tools without length and radius: what rs274 prints is then what is programmed.
     std::string tools;
-    for (int i = 1; i <= 9999; i += i < 100 ? 1 : 9899) tools += "T" + std::to_string(i) + " P" + std::to_string(i) + " Z0 D0\n";
+    for (int i = 1; i <= 9999; i += i < 100 ? 1 : 9899)
+      tools += "T" + std::to_string(i) + " P" + std::to_string(i) + " Z0 D0\n";
     tool_table_ = folder_.Write("tools.tbl", tools);
     profile_ = folder_.Write("judge.toml", "inherits = \"iso-mill\"\ndecimals = 5\n");
   }
@@ -51,7 +52,8 @@ class Judge {
     const ParsedTrace trace = ParseTrace(trace_run.output);
     if (!trace.error.empty()) return {true, "trace: " + trace.error};
     if (std::string reason = ReasonNotToAsk(trace.trace); !reason.empty()) return {false, reason};
-    if (trace_run.exit_code != 0) return {true, "trace ends with code " + std::to_string(trace_run.exit_code) + "\n" + Tail(trace_run.errors, 5)};
+    if (trace_run.exit_code != 0)
+      return {true, "trace ends with code " + std::to_string(trace_run.exit_code) + "\n" + Tail(trace_run.errors, 5)};
     const std::string flat = folder_.File("flat.ngc");
     std::error_code ignored;
     fs::remove(flat, ignored);
@@ -63,14 +65,17 @@ class Judge {
     }
     const std::string judged = folder_.Write("judged.ngc", WithoutCompensation(ReadFileOrDie(flat)));
     const ProcessResult run = RunProcess({rs274_, "-t", tool_table_, "-g", judged}, {}, 60, folder_.Path());
-    if (!run.Clean() || run.exit_code != 0) return {true, "rs274 does not take the flat program (code " + std::to_string(run.exit_code) + "):\n" + Tail(run.errors, 4)};
+    if (!run.Clean() || run.exit_code != 0)
+      return {true, "rs274 does not take the flat program (code " + std::to_string(run.exit_code) + "):\n" +
+                        Tail(run.errors, 4)};
     const ParsedTrace canon = ParseCanon(run.output);
     if (!canon.error.empty()) return {true, canon.error};
     return {true, CompareWithCanon(trace.trace, canon.trace).value_or("")};
   }
 
  private:
-  ProcessResult Run(const char* command, const std::vector<std::string>& arguments, const std::vector<std::string>& more) const {
+  ProcessResult Run(const char* command, const std::vector<std::string>& arguments,
+                    const std::vector<std::string>& more) const {
     std::vector<std::string> all = {binary_, command};
     all.insert(all.end(), arguments.begin(), arguments.end());
     all.insert(all.end(), more.begin(), more.end());
@@ -119,9 +124,11 @@ std::vector<Case> MillSamples(const fs::path& source) {
 int Main(const std::string& binary, const std::string& rs274, const fs::path& source) {
   Judge judge(binary, rs274);
   if (!judge.IsThere()) {
-    std::printf("rs274 was not found (%s). It is the outside judge of flat programs: an interpreter that ncport had no part in.\n"
-                "It comes with the Debian package linuxcnc-uspace; tools/test installs it. Without it nothing was compared.\n",
-                rs274.c_str());
+    std::printf(
+        "rs274 was not found (%s). It is the outside judge of flat programs: an interpreter that ncport had no part "
+        "in.\n"
+        "It comes with the Debian package linuxcnc-uspace; tools/test installs it. Without it nothing was compared.\n",
+        rs274.c_str());
     return 1;
   }
   std::vector<Case> cases = MillSamples(source);
@@ -146,9 +153,11 @@ int Main(const std::string& binary, const std::string& rs274, const fs::path& so
     std::printf("FAILED %s\n%s\n", one.name.c_str(), verdict.text.c_str());
   }
   const int vectors = static_cast<int>(cases.size() - samples);
-  std::printf("rs274 was given %d of %d mill samples and %d of %d passing mill vectors (%.0f %%, at least %.0f %% are needed); %d failed\n",
-              given_samples, static_cast<int>(samples), given_vectors, vectors, vectors == 0 ? 100.0 : 100.0 * given_vectors / vectors,
-              100 * kLeastShare, failed);
+  std::printf(
+      "rs274 was given %d of %d mill samples and %d of %d passing mill vectors (%.0f %%, at least %.0f %% are needed); "
+      "%d failed\n",
+      given_samples, static_cast<int>(samples), given_vectors, vectors,
+      vectors == 0 ? 100.0 : 100.0 * given_vectors / vectors, 100 * kLeastShare, failed);
   if (samples == 0) std::printf("no sample names iso-mill in its README.md\n");
   return failed == 0 && samples > 0 && given_vectors >= kLeastShare * vectors ? 0 : 1;
 }

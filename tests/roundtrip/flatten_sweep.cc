@@ -41,13 +41,16 @@ struct Parameters {
   }
   [[nodiscard]] double Allowance() const { return std::max((extd - intd) / 2 - fallx, 0.0); }
   [[nodiscard]] bool DividesEvenly() const { return Allowance() - rall * std::trunc(Allowance() / rall) == 0; }
-  [[nodiscard]] int Layers() const { return static_cast<int>(std::trunc(Allowance() / rall)) + (DividesEvenly() ? 0 : 1); }
+  [[nodiscard]] int Layers() const {
+    return static_cast<int>(std::trunc(Allowance() / rall)) + (DividesEvenly() ? 0 : 1);
+  }
 
   /// The motions of the cycle, as trace text without messages.
   [[nodiscard]] std::string Model() const {
     std::string text;
     const auto move = [&](const char* kind, double x, double z, double feed) {
-      text += std::string(kind) + " X" + Number(x) + " Z" + Number(z) + (feed > 0 ? " F" + Number(feed) + "/r" : "") + "\n";
+      text +=
+          std::string(kind) + " X" + Number(x) + " Z" + Number(z) + (feed > 0 ? " F" + Number(feed) + "/r" : "") + "\n";
     };
     const int layers = Layers();
     const double step = Allowance() / layers;
@@ -74,7 +77,8 @@ struct Parameters {
 /// Half of the sets divide evenly, in steps that binary numbers hold exactly; the others are arbitrary hundredths.
 std::vector<Parameters> RandomSets(std::mt19937& random) {
   const auto pick = [&](double low, double high, double unit) {
-    std::uniform_int_distribution<int> steps(static_cast<int>(std::ceil(low / unit)), static_cast<int>(std::floor(high / unit)));
+    std::uniform_int_distribution<int> steps(static_cast<int>(std::ceil(low / unit)),
+                                             static_cast<int>(std::floor(high / unit)));
     return steps(random) * unit;
   };
   std::vector<Parameters> sets;
@@ -126,7 +130,8 @@ class Sweep {
       one_layer += p.Layers() == 1 ? 1 : 0;
       many_layers += p.Layers() > 100 ? 1 : 0;
       // Every fourth set through a main program of its own, the others by --call.
-      const std::string trace = number++ % 4 == 0 ? Check(p, MainProgram(p), {}) : Check(p, CycleFile(), {"--call", p.Call()});
+      const std::string trace =
+          number++ % 4 == 0 ? Check(p, MainProgram(p), {}) : Check(p, CycleFile(), {"--call", p.Call()});
       traces.insert(trace);
     }
     NothingToRemove(random);
@@ -135,10 +140,13 @@ class Sweep {
       if (!holds) Fail("the sweep itself", what);
     };
     need(traces.size() >= 200, "only " + std::to_string(traces.size()) + " distinct traces");
-    need(evenly >= 80 && static_cast<int>(sets.size()) - evenly >= 100, "the halves that divide evenly or not are too small");
+    need(evenly >= 80 && static_cast<int>(sets.size()) - evenly >= 100,
+         "the halves that divide evenly or not are too small");
     need(one_layer > 0 && many_layers > 0, "one layer and more than 100 layers do not both occur");
-    std::printf("%zu parameter sets (seed %u), %zu distinct traces, %d divide evenly, %d with one layer, %d with more than 100 layers; %d failed\n",
-                sets.size(), seed, traces.size(), evenly, one_layer, many_layers, failures_);
+    std::printf(
+        "%zu parameter sets (seed %u), %zu distinct traces, %d divide evenly, %d with one layer, %d with more than 100 "
+        "layers; %d failed\n",
+        sets.size(), seed, traces.size(), evenly, one_layer, many_layers, failures_);
     return failures_ == 0 ? 0 : 1;
   }
 
@@ -154,10 +162,12 @@ class Sweep {
                              p.Call() + "\nG0 X400 Z50\nM30\n");
   }
 
-  ProcessResult Ncport(const char* command, const std::string& file, const Options& options, const Options& more = {}) const {
+  ProcessResult Ncport(const char* command, const std::string& file, const Options& options,
+                       const Options& more = {}) const {
     Options all = {binary_, command, file};
     if (!file.ends_with(".nc")) {
-      for (const std::string& word : Options{"-I", (source_ / "samples/turning_cycle").string(), "--from", "sinumerik-840d-lathe", "--config", config_}) {
+      for (const std::string& word : Options{"-I", (source_ / "samples/turning_cycle").string(), "--from",
+                                             "sinumerik-840d-lathe", "--config", config_}) {
         all.push_back(word);
       }
     }
@@ -194,33 +204,40 @@ class Sweep {
     const ProcessResult back = Ncport("trace", flat, {"--from", "iso-lathe"});
     const ParsedTrace again = ParseTrace(back.output);
     if (back.exit_code != 0 || !again.error.empty()) {
-      Fail(name, "the flat program does not run (code " + std::to_string(back.exit_code) + ") " + again.error + "\n" + Tail(back.errors, 6));
+      Fail(name, "the flat program does not run (code " + std::to_string(back.exit_code) + ") " + again.error + "\n" +
+                     Tail(back.errors, 6));
       return traced.output;
     }
     FlatAllowance allowance;
     allowance.diameter_words = true;
     allowance.maps = {{"TOOL 1", "TOOL 1"}, {"TOOL \"FINISHING_T35 A\"", "TOOL 3"}};
     Trace from = source.trace, to = again.trace;
-    // The edges of the source and the offsets of the target belong to their tools; the map of tools was compared with them.
+    // The edges of the source and the offsets of the target belong to their tools; the map of tools was compared with
+    // them.
     for (Trace* trace : {&from, &to}) {
       std::erase_if(trace->events, [](const TraceEvent& event) { return event.kind == "OFFSET"; });
     }
-    if (const auto difference = CompareWithFlat(from, to, allowance)) Fail(name, "flat program differs from its source: " + *difference);
+    if (const auto difference = CompareWithFlat(from, to, allowance))
+      Fail(name, "flat program differs from its source: " + *difference);
     return traced.output;
   }
 
   void CheckModel(const std::string& name, const Parameters& p, const Trace& trace) {
     Trace moves = trace, model = ParseTrace(p.Model()).trace;
-    std::erase_if(moves.events, [](const TraceEvent& event) { return !event.IsMove() && event.kind != "TOOL" && event.kind != "OFFSET"; });
+    std::erase_if(moves.events, [](const TraceEvent& event) {
+      return !event.IsMove() && event.kind != "TOOL" && event.kind != "OFFSET";
+    });
     // A main program moves to X400 Z50 before and after.
     std::erase_if(moves.events, [](const TraceEvent& event) {
       return (event.IsMove() && event.axes[0] && *event.axes[0] == 200) || event.line == "TOOL 1";
     });
     if (!moves.events.empty() && moves.events.front().kind == "OFFSET") moves.events.erase(moves.events.begin());
-    if (const auto difference = CompareVector(moves, model)) Fail(name, "trace differs from the model of the cycle: " + *difference);
+    if (const auto difference = CompareVector(moves, model))
+      Fail(name, "trace differs from the model of the cycle: " + *difference);
     int messages = 0;
     for (const TraceEvent& event : trace.events) messages += event.line.starts_with("MSG ROUGHING") ? 1 : 0;
-    if (messages != p.Layers()) Fail(name, std::to_string(messages) + " layers instead of " + std::to_string(p.Layers()));
+    if (messages != p.Layers())
+      Fail(name, std::to_string(messages) + " layers instead of " + std::to_string(p.Layers()));
   }
 
   /// Allowance 0 or less: no layer, so the step formula divides by zero.
@@ -240,10 +257,14 @@ class Sweep {
         moved |= event.IsMove();
         alarmed |= event.line.starts_with("ALARM 14051");
       }
-      if (traced.exit_code != 1 || !alarmed || moved) Fail(name, "expected ALARM 14051 before any motion, exit 1; code " + std::to_string(traced.exit_code) + "\n" + Tail(traced.output, 4));
+      if (traced.exit_code != 1 || !alarmed || moved)
+        Fail(name, "expected ALARM 14051 before any motion, exit 1; code " + std::to_string(traced.exit_code) + "\n" +
+                       Tail(traced.output, 4));
       const std::string flat = folder_.File("nothing.nc");
-      const ProcessResult flattened = Ncport("flatten", CycleFile(), {"--call", p.Call()}, {"--to", "iso-lathe", "-o", flat});
-      if (flattened.exit_code != 1 || fs::exists(flat)) Fail(name, "flatten must end with 1 and write no file; code " + std::to_string(flattened.exit_code));
+      const ProcessResult flattened =
+          Ncport("flatten", CycleFile(), {"--call", p.Call()}, {"--to", "iso-lathe", "-o", flat});
+      if (flattened.exit_code != 1 || fs::exists(flat))
+        Fail(name, "flatten must end with 1 and write no file; code " + std::to_string(flattened.exit_code));
     }
   }
 
@@ -253,7 +274,9 @@ class Sweep {
       const std::string name = std::string("seed_004 as printed, ") + profile;
       const ProcessResult traced = RunProcess({binary_, "trace", file, "--from", profile});
       const ParsedTrace trace = ParseTrace(traced.output);
-      if (!traced.Clean() || traced.exit_code > 1 || !trace.error.empty()) Fail(name, "trace: code " + std::to_string(traced.exit_code) + " " + trace.error + "\n" + Tail(traced.errors, 6));
+      if (!traced.Clean() || traced.exit_code > 1 || !trace.error.empty())
+        Fail(name,
+             "trace: code " + std::to_string(traced.exit_code) + " " + trace.error + "\n" + Tail(traced.errors, 6));
       int lines = 0, arcs = 0, comp = 0;
       for (const TraceEvent& event : trace.trace.events) {
         lines += event.kind == "LINE" ? 1 : 0;
@@ -262,13 +285,17 @@ class Sweep {
       }
       // L1 twice: 2 circles, 91 rings, 3 lines besides; L2: one line in, 361 points of the ellipse.
       if (arcs != 2 * (2 + 91) || lines != 2 * 94 + 362 || comp < 1) {
-        Fail(name, std::to_string(arcs) + " arcs, " + std::to_string(lines) + " lines, " + std::to_string(comp) + " COMP LEFT\n" + Tail(traced.errors, 6));
+        Fail(name, std::to_string(arcs) + " arcs, " + std::to_string(lines) + " lines, " + std::to_string(comp) +
+                       " COMP LEFT\n" + Tail(traced.errors, 6));
       }
       const std::string flat = folder_.File("seed.nc");
-      const ProcessResult flattened = RunProcess({binary_, "flatten", file, "--from", profile, "--to", "iso-mill", "-o", flat});
-      const bool names_it = flattened.errors.find("seed_004.mpf:14:") != std::string::npos && flattened.errors.find("D1") != std::string::npos;
+      const ProcessResult flattened =
+          RunProcess({binary_, "flatten", file, "--from", profile, "--to", "iso-mill", "-o", flat});
+      const bool names_it = flattened.errors.find("seed_004.mpf:14:") != std::string::npos &&
+                            flattened.errors.find("D1") != std::string::npos;
       if (flattened.exit_code != 1 || fs::exists(flat) || !names_it) {
-        Fail(name, "flatten must refuse D1 without a tool in line 14; code " + std::to_string(flattened.exit_code) + "\n" + Tail(flattened.errors, 8));
+        Fail(name, "flatten must refuse D1 without a tool in line 14; code " + std::to_string(flattened.exit_code) +
+                       "\n" + Tail(flattened.errors, 8));
       }
     }
   }

@@ -85,7 +85,8 @@ ProcessResult RunProcess(const std::vector<std::string>& arguments, const std::s
     if (fds[0].revents != 0 && !Drain(out.read_end, result.output)) Pipe::Close(out.read_end);
     if (fds[1].revents != 0 && !Drain(err.read_end, result.errors)) Pipe::Close(err.read_end);
     if (fds[2].revents != 0) {
-      const ssize_t put = write(in.write_end, input.data() + written, std::min<std::size_t>(input.size() - written, 4096));
+      const ssize_t put =
+          write(in.write_end, input.data() + written, std::min<std::size_t>(input.size() - written, 4096));
       if (put > 0) written += static_cast<std::size_t>(put);
       if (put < 0 || written == input.size()) Pipe::Close(in.write_end);
     }

@@ -7,18 +7,19 @@
 namespace ncport::tests {
 
 struct ProcessResult {
-  int exit_code = -1;        // of a normal end; 128 + number when a signal ended it
-  bool timed_out = false;    // it was ended after the time limit
-  bool started = false;      // false: the program was not found
-  std::string output;        // standard output
-  std::string errors;        // standard error
-  double seconds = 0;        // wall time
+  int exit_code = -1;      // of a normal end; 128 + number when a signal ended it
+  bool timed_out = false;  // it was ended after the time limit
+  bool started = false;    // false: the program was not found
+  std::string output;      // standard output
+  std::string errors;      // standard error
+  double seconds = 0;      // wall time
 
   /// Ended by itself, without a signal.
   [[nodiscard]] bool Clean() const { return started && !timed_out && exit_code >= 0 && exit_code < 128; }
 };
 
-/// Runs `arguments[0]` (a path, or a name looked up in PATH) with `input` as standard input. `folder`: working folder, empty = this one.
+/// Runs `arguments[0]` (a path, or a name looked up in PATH) with `input` as standard input. `folder`: working folder,
+/// empty = this one.
 ProcessResult RunProcess(const std::vector<std::string>& arguments, const std::string& input = {},
                          double limit_seconds = 60, const std::string& folder = {});
 

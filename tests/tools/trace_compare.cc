@@ -32,13 +32,15 @@ std::optional<double> Number(std::string_view text) {
 }
 
 bool IsAuxiliary(const std::string& kind) {
-  return kind.size() > 1 && kind[0] == 'M' && std::all_of(kind.begin() + 1, kind.end(), [](unsigned char c) { return std::isdigit(c); });
+  return kind.size() > 1 && kind[0] == 'M' &&
+         std::all_of(kind.begin() + 1, kind.end(), [](unsigned char c) { return std::isdigit(c); });
 }
 
 bool IsSpindle(const std::string& kind) { return kind.rfind("SPINDLE", 0) == 0; }
 
-constexpr std::string_view kOtherKinds[] = {"RAPID MCS", "REFPOINT", "PROBE", "DWELL", "TOOL", "OFFSET", "COMP", "WCS",
-                                            "PATH",      "MSG",      "PRINT", "STOP",  "OPTSTOP", "ALARM", "END"};
+constexpr std::string_view kOtherKinds[] = {"RAPID MCS", "REFPOINT", "PROBE",   "DWELL", "TOOL",
+                                            "OFFSET",    "COMP",     "WCS",     "PATH",  "MSG",
+                                            "PRINT",     "STOP",     "OPTSTOP", "ALARM", "END"};
 
 /// Fills the fields of a move from its words; false: a word that has no place in this kind of line.
 bool FillMove(TraceEvent& event, const std::vector<std::string>& words) {
@@ -107,10 +109,13 @@ struct Piece {
 std::vector<Piece> Pieces(std::string_view text) {
   std::vector<Piece> pieces;
   std::size_t at = 0;
-  const auto digit = [&](std::size_t i) { return i < text.size() && std::isdigit(static_cast<unsigned char>(text[i])) != 0; };
+  const auto digit = [&](std::size_t i) {
+    return i < text.size() && std::isdigit(static_cast<unsigned char>(text[i])) != 0;
+  };
   const auto starts = [&](std::size_t i) {
     return digit(i) || (i < text.size() && text[i] == '.' && digit(i + 1)) ||
-           (i < text.size() && text[i] == '-' && (digit(i + 1) || (i + 1 < text.size() && text[i + 1] == '.' && digit(i + 2))));
+           (i < text.size() && text[i] == '-' &&
+            (digit(i + 1) || (i + 1 < text.size() && text[i + 1] == '.' && digit(i + 2))));
   };
   while (at < text.size()) {
     std::size_t end = at;
@@ -168,7 +173,8 @@ std::string Difference(std::size_t number, const TraceEvent* expected, const Tra
 }
 
 template <class Same>
-std::optional<std::string> CompareLists(const std::vector<TraceEvent>& actual, const std::vector<TraceEvent>& expected, Same same) {
+std::optional<std::string> CompareLists(const std::vector<TraceEvent>& actual, const std::vector<TraceEvent>& expected,
+                                        Same same) {
   for (std::size_t i = 0; i < std::max(actual.size(), expected.size()); ++i) {
     const TraceEvent* a = i < actual.size() ? &actual[i] : nullptr;
     const TraceEvent* e = i < expected.size() ? &expected[i] : nullptr;
@@ -178,7 +184,8 @@ std::optional<std::string> CompareLists(const std::vector<TraceEvent>& actual, c
 }
 
 std::string UpperCase(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   return text;
 }
 
@@ -205,10 +212,11 @@ struct SpindleStates {
 };
 
 bool SameSpindles(const SpindleStates& a, const SpindleStates& b) {
-  return std::equal(a.by_name.begin(), a.by_name.end(), b.by_name.begin(), b.by_name.end(), [](const auto& x, const auto& y) {
-    return x.first == y.first && SameText(x.second.sense, y.second.sense, 0.0005) &&
-           SameText(x.second.speed, y.second.speed, 0.0005) && SameText(x.second.limit, y.second.limit, 0.0005);
-  });
+  return std::equal(
+      a.by_name.begin(), a.by_name.end(), b.by_name.begin(), b.by_name.end(), [](const auto& x, const auto& y) {
+        return x.first == y.first && SameText(x.second.sense, y.second.sense, 0.0005) &&
+               SameText(x.second.speed, y.second.speed, 0.0005) && SameText(x.second.limit, y.second.limit, 0.0005);
+      });
 }
 
 bool Cuts(const TraceEvent& event) {
@@ -229,8 +237,10 @@ bool SameFlatMove(const TraceEvent& source, const TraceEvent& flat, const FlatAl
       if (!Near(source.center[i], flat.center[i], kVectorTolerance + allowance.increment)) return false;
     }
   }
-  return Near(source.pitch, flat.pitch, allowance.feed_increment) && Near(source.start, flat.start, allowance.feed_increment) &&
-         Near(source.change, flat.change, allowance.feed_increment) && SameText(source.feed, flat.feed, allowance.feed_increment);
+  return Near(source.pitch, flat.pitch, allowance.feed_increment) &&
+         Near(source.start, flat.start, allowance.feed_increment) &&
+         Near(source.change, flat.change, allowance.feed_increment) &&
+         SameText(source.feed, flat.feed, allowance.feed_increment);
 }
 
 }  // namespace
@@ -302,7 +312,8 @@ std::optional<std::string> CompareVector(Trace actual, Trace expected) {
     for (const auto& [other, other_value] : actual.sets) {
       if (UpperCase(other) == UpperCase(name)) found = &other_value;
     }
-    if (found == nullptr) return "final value of " + name + "\n  expected: " + value + "\n  actual:   (not in the trace)";
+    if (found == nullptr)
+      return "final value of " + name + "\n  expected: " + value + "\n  actual:   (not in the trace)";
     const bool text = value.starts_with('"') || found->starts_with('"');
     if (text ? *found != value : !SameText(*found, value, kVectorTolerance)) {
       return "final value of " + name + "\n  expected: " + value + "\n  actual:   " + *found;
@@ -349,7 +360,8 @@ std::optional<std::string> CompareWithFlat(Trace source, Trace flat, const FlatA
       std::string text = "spindle state at cutting move " + std::to_string(i + 1) + "\n";
       for (int which = 0; which < 2; ++which) {
         text += which == 0 ? "  source:" : "  flat:";
-        for (const auto& [name, one] : states[which][i].by_name) text += " " + name + ": " + one.sense + ", " + one.speed + ", limit " + one.limit + ";";
+        for (const auto& [name, one] : states[which][i].by_name)
+          text += " " + name + ": " + one.sense + ", " + one.speed + ", limit " + one.limit + ";";
         text += "\n";
       }
       return text;

@@ -23,7 +23,9 @@ bool FlatAgree(std::string_view source, std::string_view flat) {
 }
 
 TEST_CASE("lines are read into fields, and what is no event is an error") {
-  const Trace trace = Read("# note\nARC CW ZX Xr1.5 Z-2 center (0,2) turns 3 F0.2/r\nTAP Z-20 pitch 1.25\nRAPID MCS X0\nM8\nSET R1 5\nSET T \"a b\"\n");
+  const Trace trace = Read(
+      "# note\nARC CW ZX Xr1.5 Z-2 center (0,2) turns 3 F0.2/r\nTAP Z-20 pitch 1.25\nRAPID MCS X0\nM8\nSET R1 5\nSET T "
+      "\"a b\"\n");
   REQUIRE(trace.events.size() == 4);
   CHECK(trace.events[0].clockwise);
   CHECK(trace.events[0].plane == "ZX");
@@ -37,7 +39,8 @@ TEST_CASE("lines are read into fields, and what is no event is an error") {
   CHECK(trace.events[2].kind == "RAPID MCS");
   REQUIRE(trace.sets.size() == 2);
   CHECK(trace.sets[1].second == "\"a b\"");
-  for (const char* bad : {"FOO 1\n", "LINE X\n", "LINE X1 X2\n", "ARC CW XY X1 Y1 F100\n", "ARC UP XY X1 Y1 center (0,0)\n", "SET R1\n", "LINE X1 Q2\n"}) {
+  for (const char* bad : {"FOO 1\n", "LINE X\n", "LINE X1 X2\n", "ARC CW XY X1 Y1 F100\n",
+                          "ARC UP XY X1 Y1 center (0,0)\n", "SET R1\n", "LINE X1 Q2\n"}) {
     CHECK_MESSAGE(!ParseTrace(bad).error.empty(), bad);
   }
 }
@@ -45,7 +48,8 @@ TEST_CASE("lines are read into fields, and what is no event is an error") {
 TEST_CASE("a vector agrees only with the same events in the same order") {
   const char* expected = "RAPID X1 Y2\nLINE X5 Y2 F100\nDWELL 2\nEND\nSET R1 5\n";
   CHECK(Agree(expected, expected));
-  CHECK(Agree("RAPID X1.00009 Y2\nPATH EXACT\nLINE X5 Y2 F100\nTOOL 3\nDWELL 2\nEND\nSET R1 5.00005\nSET R2 1\n", expected));
+  CHECK(Agree("RAPID X1.00009 Y2\nPATH EXACT\nLINE X5 Y2 F100\nTOOL 3\nDWELL 2\nEND\nSET R1 5.00005\nSET R2 1\n",
+              expected));
   CHECK_FALSE(Agree("RAPID X1.0002 Y2\nLINE X5 Y2 F100\nDWELL 2\nEND\nSET R1 5\n", expected));
   CHECK_FALSE(Agree("RAPID X1 Y2\nLINE X5 Y2 F101\nDWELL 2\nEND\nSET R1 5\n", expected));
   CHECK_FALSE(Agree("RAPID X1 Y2\nLINE X5 Y2 F100/r\nDWELL 2\nEND\nSET R1 5\n", expected));
@@ -91,7 +95,9 @@ TEST_CASE("a move to where the tool stands is dropped, but not behind a change o
 }
 
 TEST_CASE("a flat program may differ by the rounding of its words and by lost messages, and by nothing that grows") {
-  const char* source = "TOOL \"ROUGH\"\nOFFSET EDGE 1\nSPINDLE RPM 800\nSPINDLE CW\nPATH CONTINUOUS\nMSG hello\nRAPID X1.00033 Y2\nLINE X5 Y2 F100\nEND\n";
+  const char* source =
+      "TOOL \"ROUGH\"\nOFFSET EDGE 1\nSPINDLE RPM 800\nSPINDLE CW\nPATH CONTINUOUS\nMSG hello\nRAPID X1.00033 Y2\nLINE "
+      "X5 Y2 F100\nEND\n";
   CHECK(FlatAgree(source, "TOOL 1\nSPINDLE CW\nSPINDLE RPM 800\nRAPID X1 Y2\nLINE X5 Y2 F100\nEND\n"));
   CHECK_FALSE(FlatAgree(source, "TOOL 2\nSPINDLE CW\nSPINDLE RPM 800\nRAPID X1 Y2\nLINE X5 Y2 F100\nEND\n"));
   CHECK_FALSE(FlatAgree(source, "TOOL 1\nSPINDLE CW\nSPINDLE RPM 800\nRAPID X1.001 Y2\nLINE X5 Y2 F100\nEND\n"));

@@ -60,7 +60,8 @@ std::vector<Vector> ListVectors(const fs::path& folder, std::set<std::string>* u
     if (entry.path().extension() != ".expected") continue;
     Vector vector;
     for (const auto& other : fs::directory_iterator(entry.path().parent_path())) {
-      if (other.path().stem() == entry.path().stem() && other.path().extension() != ".expected") vector.program = other.path();
+      if (other.path().stem() == entry.path().stem() && other.path().extension() != ".expected")
+        vector.program = other.path();
     }
     vector.language = entry.path().parent_path().filename().string();
     vector.name = vector.language + "/" + vector.program.filename().string();

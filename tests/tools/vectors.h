@@ -9,14 +9,14 @@
 namespace ncport::tests {
 
 struct Vector {
-  std::string name;                  // "sinumerik/05-real-to-int.mpf"
+  std::string name;  // "sinumerik/05-real-to-int.mpf"
   std::string language;
   std::filesystem::path program;
   std::string program_text;
   std::string expected_text;
   std::vector<std::string> options;  // of `ncport trace`: profile and start; empty: README.md has no row for it
   bool mill = false;
-  bool open = false;                 // listed in open.txt
+  bool open = false;  // listed in open.txt
 
   [[nodiscard]] bool ExpectsAlarm() const;
 };

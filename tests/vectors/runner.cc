@@ -1,7 +1,7 @@
-// ncport_vectors BINARY FOLDER [PART OF A NAME]: runs every vector of FOLDER through `ncport trace --vars` and compares as
-// README.md and contracts section 6 say. open.txt names the vectors that do not pass yet: each of them must end in an error
-// that has a place in the program (or names the language), never in a trace that could be taken for right. Prints the share
-// per language.
+// ncport_vectors BINARY FOLDER [PART OF A NAME]: runs every vector of FOLDER through `ncport trace --vars` and compares
+// as README.md and contracts section 6 say. open.txt names the vectors that do not pass yet: each of them must end in
+// an error that has a place in the program (or names the language), never in a trace that could be taken for right.
+// Prints the share per language.
 #include <cstdio>
 #include <map>
 #include <set>
@@ -28,7 +28,8 @@ Outcome RunVector(const std::string& binary, const Vector& vector) {
   const ProcessResult run = RunProcess(arguments);
   if (!run.started) return {.why = "the program does not start: " + binary};
   if (!run.Clean() || run.exit_code == 70) {
-    return {.why = "ended by " + std::string(run.timed_out ? "the time limit" : "code " + std::to_string(run.exit_code)) + "\n" +
+    return {.why = "ended by " +
+                   std::string(run.timed_out ? "the time limit" : "code " + std::to_string(run.exit_code)) + "\n" +
                    Tail(run.errors, 5)};
   }
   const ParsedTrace expected = ParseTrace(vector.expected_text);
@@ -65,14 +66,17 @@ int Main(const std::string& binary, const std::string& folder, const std::string
     ++count.total;
     count.passed += outcome.passes ? 1 : 0;
     count.refused += !outcome.passes && outcome.refused ? 1 : 0;
-    if (outcome.passes && vector.open) failures.push_back(vector.name + "\npasses but is listed in open.txt: take its line out");
+    if (outcome.passes && vector.open)
+      failures.push_back(vector.name + "\npasses but is listed in open.txt: take its line out");
     if (!outcome.passes && !vector.open) failures.push_back(vector.name + "\n" + outcome.why);
     if (!outcome.passes && vector.open && !outcome.refused) {
-      failures.push_back(vector.name + "\nis open, and is neither right nor refused with a place: a guess\n" + outcome.why);
+      failures.push_back(vector.name + "\nis open, and is neither right nor refused with a place: a guess\n" +
+                         outcome.why);
     }
   }
   for (const auto& [language, count] : counts) {
-    std::printf("%-10s %2d of %2d vectors pass, %d are refused with a reason\n", language.c_str(), count.passed, count.total, count.refused);
+    std::printf("%-10s %2d of %2d vectors pass, %d are refused with a reason\n", language.c_str(), count.passed,
+                count.total, count.refused);
   }
   for (const std::string& name : unknown) failures.push_back(name + "\nis listed in open.txt and does not exist");
   for (const std::string& failure : failures) std::printf("\nFAILED %s\n", failure.c_str());

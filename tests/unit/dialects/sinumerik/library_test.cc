@@ -47,12 +47,12 @@ TEST_CASE("parameters stand in the order of the card") {
   using Names = std::vector<std::string>;
   CHECK(Parameters(*LibraryCycle("CYCLE81")) ==
         Names{"RTP", "RFP", "SDIS", "DP", "DPR", "DTB", "_GMODE", "_DMODE", "_AMODE"});
-  CHECK(Parameters(*LibraryCycle("CYCLE83")) ==
-        Names{"RTP",  "RFP",  "SDIS",  "DP",   "DPR",  "FDEP",  "FDPR",   "DAM",    "DTB",   "DTS",
-              "FRF",  "VARI", "_AXN",  "_MDEP", "_VRT", "_DTD",  "_DIS1",  "_GMODE", "_DMODE", "_AMODE"});
-  CHECK(Parameters(*LibraryCycle("CYCLE84")) ==
-        Names{"RTP",  "RFP", "SDIS", "DP",   "DPR",  "DTB",   "SDAC",    "MPIT",  "PIT",
-              "POSS", "SST", "SST1", "_AXN", "_PTAB", "_TECHNO", "_VARI", "_DAM", "_VRT"});
+  CHECK(Parameters(*LibraryCycle("CYCLE83")) == Names{"RTP",  "RFP",  "SDIS",  "DP",     "DPR",    "FDEP",  "FDPR",
+                                                      "DAM",  "DTB",  "DTS",   "FRF",    "VARI",   "_AXN",  "_MDEP",
+                                                      "_VRT", "_DTD", "_DIS1", "_GMODE", "_DMODE", "_AMODE"});
+  CHECK(Parameters(*LibraryCycle("CYCLE84")) == Names{"RTP", "RFP", "SDIS", "DP", "DPR", "DTB", "SDAC", "MPIT", "PIT",
+                                                      "POSS", "SST", "SST1", "_AXN", "_PTAB", "_TECHNO", "_VARI",
+                                                      "_DAM", "_VRT"});
   CHECK(Parameters(*LibraryCycle("HOLES1")) == Names{"SPCA", "SPCO", "STA1", "FDIS", "DBH", "NUM"});
   CHECK(Parameters(*LibraryCycle("HOLES2")) == Names{"CPA", "CPO", "RAD", "STA1", "INDA", "NUM"});
 }

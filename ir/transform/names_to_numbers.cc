@@ -1,0 +1,572 @@
+#include "ir/transform/names_to_numbers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "ir/builder.h"
+#include "ir/transform/linear_form.h"
+#include "ir/transform/program_editor.h"
+#include "ir/transform/rewrite_exprs.h"
+
+namespace ncport::ir::transform {
+
+namespace {
+
+bool SameName(std::string_view a, std::string_view b, bool ignore_case) {
+  return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [&](char x, char y) {
+           return x == y || (ignore_case && std::toupper(static_cast<unsigned char>(x)) ==
+                                                std::toupper(static_cast<unsigned char>(y)));
+         });
+}
+
+std::uint32_t CellCount(const Variable& variable) {
+  std::uint32_t count = 1;
+  for (std::uint8_t i = 0; i < variable.dimension_count; ++i) count *= variable.dimensions[i];
+  return count;
+}
+
+class Allocation {
+ public:
+  Allocation(Module& module, const NamesToNumbersConfig& config, diag::Sink& sink)
+      : module_(module), config_(config), sink_(sink), make_(module) {}
+
+  NamesToNumbersResult Run();
+
+ private:
+  struct Home {
+    std::uint32_t cell = 0;
+    bool common = false;
+  };
+
+  // What is used.
+  void FindUses();
+  void FindFeedParameters(ProgramId program);
+  // Where it goes.
+  void PlaceSpaces();
+  void PlaceProgram(ProgramId program);
+  bool PlaceParameter(ProgramId program, VariableId id, std::size_t& next_letter, bool& feed_taken);
+  void PlaceLocal(ProgramId program, VariableId id);
+  bool TakeLocal(ProgramId program, std::uint32_t count, std::uint32_t& cell);
+  bool TakeCommon(std::uint32_t count, std::uint32_t& cell);
+  const NamesToNumbersConfig::Pin* PinOf(ProgramId program, std::string_view name) const;
+  // The program text.
+  void LowerDefinitions(ProgramId program);
+  bool WrittenBeforeRead(ProgramId program, BlockId definition, VariableId variable) const;
+  void LowerCalls(ProgramId program);
+  void ReplaceNames(ProgramId program);
+  ExprId CellOf(ExprId id);
+
+  void Refuse(const SourceRange& at, std::string_view what);
+  [[nodiscard]] SourceRange PlaceOf(const Variable& variable) const {
+    return {variable.file, variable.line, variable.begin, variable.begin + variable.length};
+  }
+  [[nodiscard]] bool OwnsLocals(ProgramId program) const {
+    return std::any_of(module_.variables.All().begin(), module_.variables.All().end(), [&](const Variable& variable) {
+      return variable.owner == program && variable.scope != Scope::kGlobal && variable.scope != Scope::kChannel;
+    });
+  }
+
+  Module& module_;
+  const NamesToNumbersConfig& config_;
+  diag::Sink& sink_;
+  ExprBuilder make_;
+  SpaceId space_;
+
+  std::map<std::uint32_t, Home> homes_;                           // VariableId -> first cell
+  std::map<std::uint64_t, std::uint32_t> cells_;                  // source space, cell -> cell
+  std::map<std::uint32_t, std::int64_t> offsets_;                 // source space reached by an index -> offset
+  std::map<std::uint32_t, std::set<std::uint32_t>> used_locals_;  // ProgramId -> cells taken
+  std::set<std::uint32_t> used_common_;
+  std::map<std::uint32_t, std::set<std::uint32_t>> used_cells_;  // SpaceId -> cells of the source
+  std::set<std::uint32_t> indexed_spaces_;
+  std::set<std::uint32_t> read_variables_;
+  std::set<std::uint32_t> feeds_;  // parameters that stand alone as a feed
+  NamesToNumbersResult result_;
+};
+
+void Allocation::Refuse(const SourceRange& at, std::string_view what) {
+  result_.ok = false;
+  sink_.Report(diag::Code::kNotExpressible, at, what, "a language with numbered variables");
+}
+
+void Allocation::FindUses() {
+  for (const ProgramId program : module_.programs.Ids()) {
+    RewriteProgram(module_, program, [&](Module& module, ExprId id) {
+      const Expr& expr = module.exprs[id];
+      if (expr.op == ExprOp::kCell) used_cells_[expr.a].insert(expr.b);
+      if (expr.op == ExprOp::kCellAt) indexed_spaces_.insert(expr.b);
+      if (expr.op == ExprOp::kVariable || expr.op == ExprOp::kElement) read_variables_.insert(expr.a);
+      return id;
+    });
+    FindFeedParameters(program);
+  }
+}
+
+void Allocation::FindFeedParameters(ProgramId program) {
+  for (const BlockId block : module_.programs[program].blocks) {
+    for (const WordId id : module_.blocks[block].words) {
+      const Word& word = module_.words[id];
+      if (word.op != WordOp::kFeed || !word.value.Valid()) continue;
+      const Expr& value = module_.exprs[word.value];
+      if (value.op == ExprOp::kVariable && module_.variables[VariableId{value.a}].scope == Scope::kParameter)
+        feeds_.insert(value.a);
+    }
+  }
+}
+
+const NamesToNumbersConfig::Pin* Allocation::PinOf(ProgramId program, std::string_view name) const {
+  for (const NamesToNumbersConfig::Pin& pin : config_.pins) {
+    if (SameName(pin.source, name, config_.ignore_case)) return &pin;
+    if (!program.Valid()) continue;
+    const std::string full = fmt::format("{}.{}", module_.View(module_.programs[program].name), name);
+    if (SameName(pin.source, full, config_.ignore_case)) return &pin;
+  }
+  return nullptr;
+}
+
+bool Allocation::TakeCommon(std::uint32_t count, std::uint32_t& cell) {
+  for (const CellRange& range : config_.scratch) {
+    for (std::uint32_t first = range.first; first + count <= range.last + 1; ++first) {
+      bool free = true;
+      for (std::uint32_t i = 0; i < count && free; ++i) free = !used_common_.contains(first + i);
+      if (!free) continue;
+      for (std::uint32_t i = 0; i < count; ++i) used_common_.insert(first + i);
+      cell = first;
+      return true;
+    }
+  }
+  return false;
+}
+
+bool Allocation::TakeLocal(ProgramId program, std::uint32_t count, std::uint32_t& cell) {
+  std::set<std::uint32_t>& used = used_locals_[program.value];
+  const auto take = [&](std::uint32_t first) {
+    for (std::uint32_t i = 0; i < count; ++i) {
+      if (first + i > config_.locals.last || used.contains(first + i)) return false;
+    }
+    for (std::uint32_t i = 0; i < count; ++i) used.insert(first + i);
+    cell = first;
+    return true;
+  };
+  for (const std::uint32_t first : config_.free_locals_first) {
+    if (count == 1 && take(first)) return true;
+  }
+  for (std::uint32_t first = config_.locals.first; first <= config_.locals.last; ++first) {
+    if (take(first)) return true;
+  }
+  return false;
+}
+
+void Allocation::PlaceSpaces() {
+  for (const NamesToNumbersConfig::Pin& pin : config_.pins) used_common_.insert(pin.cell);
+  for (const std::uint32_t space : indexed_spaces_) {
+    if (SpaceId{space} == space_) continue;
+    // An index may reach any cell: the space moves as one piece with one offset, or not at all.
+    const Space& source = module_.spaces[SpaceId{space}];
+    std::uint32_t first = 0;
+    const std::uint32_t count = source.last - source.first + 1;
+    if (!TakeCommon(count, first)) {
+      Refuse({}, fmt::format("{}[..] with a computed number ({} cells that move together)", module_.View(source.name),
+                             count));
+      continue;
+    }
+    offsets_[space] = static_cast<std::int64_t>(first) - source.first;
+    CellMapping mapping;
+    mapping.source = fmt::format("{0}{1} to {0}{2}", module_.View(source.name), source.first, source.last);
+    mapping.first = first;
+    mapping.count = count;
+    mapping.common = true;
+    mapping.outlives = source.lifetime == Lifetime::kKept;
+    mapping.source_space = SpaceId{space};
+    mapping.source_cell = source.first;
+    result_.map.push_back(mapping);
+  }
+  for (const auto& [space, cells] : used_cells_) {
+    if (SpaceId{space} == space_ || offsets_.contains(space)) continue;
+    const Space source = module_.spaces[SpaceId{space}];
+    for (const std::uint32_t number : cells) {
+      const std::string name = fmt::format("{}{}", module_.View(source.name), number);
+      std::uint32_t cell = 0;
+      if (const NamesToNumbersConfig::Pin* pin = PinOf({}, name)) {
+        cell = pin->cell;
+      } else {
+        // The same number behind the start of the scratch cells where that is free: the map stays when other cells
+        // come.
+        const std::uint32_t wish = config_.scratch.empty() ? 0 : config_.scratch.front().first + number;
+        const bool fits =
+            !config_.scratch.empty() && wish <= config_.scratch.front().last && !used_common_.contains(wish);
+        if (fits) {
+          used_common_.insert(wish);
+          cell = wish;
+        } else if (!TakeCommon(1, cell)) {
+          Refuse({}, fmt::format("{}: the scratch cells of the profile are used up", name));
+          continue;
+        }
+      }
+      cells_[static_cast<std::uint64_t>(space) << 32U | number] = cell;
+      CellMapping mapping;
+      mapping.source = name;
+      mapping.first = cell;
+      mapping.common = true;
+      mapping.outlives = source.lifetime == Lifetime::kKept;
+      mapping.source_space = SpaceId{space};
+      mapping.source_cell = number;
+      result_.map.push_back(mapping);
+    }
+  }
+}
+
+bool Allocation::PlaceParameter(ProgramId program, VariableId id, std::size_t& next_letter, bool& feed_taken) {
+  const Variable variable = module_.variables[id];
+  CellMapping mapping;
+  mapping.program = program;
+  mapping.source = module_.View(variable.name);
+  mapping.variable = id;
+  if (variable.type == Type::kString || variable.type == Type::kAxis || variable.type == Type::kFrame) {
+    Refuse(PlaceOf(variable), fmt::format("parameter {} that is no number", mapping.source));
+    return false;
+  }
+  if (variable.by_reference || variable.dimension_count > 0) {
+    std::uint32_t cell = 0;
+    if (!TakeCommon(CellCount(variable), cell)) {
+      Refuse(PlaceOf(variable),
+             fmt::format("parameter {}: the scratch cells of the profile are used up", mapping.source));
+      return false;
+    }
+    mapping.first = cell;
+    mapping.count = CellCount(variable);
+    mapping.common = true;
+    homes_[id.value] = {cell, true};
+  } else {
+    ArgumentLetter letter;
+    if (feeds_.contains(id.value) && !feed_taken && config_.feed_letter.letter != 0) {
+      letter = config_.feed_letter;
+      feed_taken = true;
+    } else {
+      while (next_letter < config_.letters.size() &&
+             used_locals_[program.value].contains(config_.letters[next_letter].cell))
+        ++next_letter;
+      if (next_letter < config_.letters.size()) letter = config_.letters[next_letter++];
+    }
+    if (letter.letter == 0) {
+      Refuse(PlaceOf(variable), fmt::format("parameter {}: more parameters than argument letters", mapping.source));
+      return false;
+    }
+    used_locals_[program.value].insert(letter.cell);
+    mapping.letter = letter.letter;
+    mapping.first = letter.cell;
+    homes_[id.value] = {letter.cell, false};
+  }
+  result_.map.push_back(mapping);
+  return true;
+}
+
+void Allocation::PlaceLocal(ProgramId program, VariableId id) {
+  const Variable variable = module_.variables[id];
+  const std::string name(module_.View(variable.name));
+  if (!read_variables_.contains(id.value)) return;
+  if (variable.type == Type::kString || variable.type == Type::kAxis || variable.type == Type::kFrame) {
+    return Refuse(PlaceOf(variable), fmt::format("variable {} that is no number", name));
+  }
+  CellMapping mapping;
+  mapping.program = program;
+  mapping.source = name;
+  mapping.variable = id;
+  mapping.count = CellCount(variable);
+  const bool shared = variable.scope == Scope::kChannel || variable.scope == Scope::kGlobal;
+  if (const NamesToNumbersConfig::Pin* pin = PinOf(program, name)) {
+    mapping.first = pin->cell;
+    mapping.common = pin->cell > config_.locals.last;
+    if (!mapping.common) used_locals_[program.value].insert(pin->cell);
+  } else if (shared) {
+    return Refuse(PlaceOf(variable),
+                  fmt::format("{}, which other programs may use and no [variables] line pins to a cell", name));
+  } else if (!TakeLocal(program, mapping.count, mapping.first)) {
+    if (!TakeCommon(mapping.count, mapping.first)) {
+      return Refuse(PlaceOf(variable), fmt::format("variable {}: no free cells are left", name));
+    }
+    mapping.common = true;
+  }
+  homes_[id.value] = {mapping.first, mapping.common};
+  if (mapping.count > 1) mapping.source += fmt::format("[0] to [{}]", mapping.count - 1);
+  result_.map.push_back(mapping);
+}
+
+void Allocation::PlaceProgram(ProgramId program) {
+  std::size_t next_letter = 0;
+  bool feed_taken = false;
+  if (config_.feed_letter.letter != 0) {
+    const IdRange<VariableId> parameters = module_.programs[program].parameters;
+    bool has_feed = false;
+    for (const VariableId id : parameters) has_feed = has_feed || feeds_.contains(id.value);
+    if (has_feed) used_locals_[program.value].insert(config_.feed_letter.cell);
+  }
+  for (const VariableId id : module_.programs[program].parameters) {
+    if (!PlaceParameter(program, id, next_letter, feed_taken)) return;
+  }
+  for (std::uint32_t i = 0; i < module_.variables.Size(); ++i) {
+    const Variable& variable = module_.variables[VariableId{i}];
+    if (variable.owner == program && variable.scope != Scope::kParameter) PlaceLocal(program, VariableId{i});
+  }
+}
+
+/// From the definition on, straight down: is the variable assigned before anything reads it or control may leave?
+bool Allocation::WrittenBeforeRead(ProgramId program, BlockId definition, VariableId variable) const {
+  const IdRange<BlockId> blocks = module_.programs[program].blocks;
+  const auto reads = [&](ExprId value) {
+    bool found = false;
+    VisitReads(module_, value, [&](ExprId id) {
+      const Expr& expr = module_.exprs[id];
+      found = found || ((expr.op == ExprOp::kVariable || expr.op == ExprOp::kElement) && expr.a == variable.value);
+    });
+    return found;
+  };
+  for (std::uint32_t i = definition.value - blocks.begin + 1; i < blocks.count; ++i) {
+    const Block& block = module_.blocks[blocks[i]];
+    if (block.label.Valid() || block.number != Block::kNoNumber || block.skip_level != Block::kNoSkip) return false;
+    for (const WordId id : block.words) {
+      const Word& word = module_.words[id];
+      if (word.op == WordOp::kDefine || word.op == WordOp::kMessage) {
+        const bool used =
+            word.op == WordOp::kDefine ? reads(module_.variables[word.Extra<VariableId>()].initial) : reads(word.value);
+        if (used) return false;
+        continue;
+      }
+      if (reads(word.value)) return false;
+      if (word.op == WordOp::kAssign) {
+        const Expr& place = module_.exprs[word.Extra<ExprId>()];
+        if (place.op == ExprOp::kVariable && place.a == variable.value) return true;
+        if (reads(word.Extra<ExprId>())) return false;
+        continue;
+      }
+      if (DefaultPhaseOf(word.op) == Phase::kFlow || DefaultPhaseOf(word.op) == Phase::kLast ||
+          word.op == WordOp::kWhen)
+        return false;
+    }
+  }
+  return false;
+}
+
+/// A definition sets its variable at each call: that becomes an assignment, unless the next lines set it anyway.
+void Allocation::LowerDefinitions(ProgramId program) {
+  ProgramEditor editor(module_, program, "names_to_numbers");
+  for (const BlockId id : module_.programs[program].blocks) {
+    const Block block = module_.blocks[id];
+    std::vector<Word> assignments;
+    bool definition = false;
+    for (const WordId word_id : block.words) {
+      const Word word = module_.words[word_id];
+      if (word.op == WordOp::kHeader || word.op == WordOp::kExtern) definition = true;
+      if (word.op != WordOp::kDefine) continue;
+      definition = true;
+      const VariableId variable_id = word.Extra<VariableId>();
+      const Variable variable = module_.variables[variable_id];
+      if (!homes_.contains(variable_id.value)) continue;
+      const bool idle =
+          !variable.initial.Valid() && !variable.initial_list.Valid() && WrittenBeforeRead(program, id, variable_id);
+      if (idle) continue;
+      const auto assign = [&](ExprId place, ExprId value) {
+        Word made;
+        made.op = WordOp::kAssign;
+        made.phase = DefaultPhaseOf(WordOp::kAssign);
+        made.extra = place.value;
+        made.value = value;
+        assignments.push_back(made);
+      };
+      if (variable.dimension_count == 0) {
+        assign(make_.Variable(variable_id), variable.initial.Valid() ? variable.initial : make_.Literal(0));
+        continue;
+      }
+      const std::uint32_t count = CellCount(variable);
+      for (std::uint32_t i = 0; i < count; ++i) {
+        ExprId value = make_.Literal(0);
+        if (variable.initial_list.Valid()) {
+          const AssignList list = module_.assign_lists[variable.initial_list];
+          if (list.repeat && list.values.count == 1) {
+            value = module_.Item(list.values[0].value);
+          } else if (i < list.values.count && module_.Item(list.values[i].value).Valid()) {
+            value = module_.Item(list.values[i].value);
+          }
+        }
+        // Written as a cell at once: elements of more dimensions count with the last index fastest.
+        assign(make_.Cell(space_, homes_[variable_id.value].cell + i), value);
+      }
+    }
+    if (!definition) continue;
+    for (std::size_t i = 0; i < assignments.size(); ++i) {
+      Block made = editor.MakeBlock(id);
+      if (i == 0) {
+        made.comments = block.comments;
+        made.number = block.number;
+        made.number_digits = block.number_digits;
+      }
+      editor.SetWords(made, {assignments[i]});
+      editor.InsertBefore(id, made);
+    }
+    if (!assignments.empty()) {
+      module_.blocks[id].comments = {};
+      module_.blocks[id].number = Block::kNoNumber;
+      editor.Remove(id);
+    } else {
+      // Only the words go: comments stay where they stood.
+      module_.blocks[id].words = {};
+      if (block.comments.Empty() && block.number == Block::kNoNumber && !block.label.Valid()) editor.Remove(id);
+    }
+  }
+  editor.Apply();
+}
+
+void Allocation::LowerCalls(ProgramId program) {
+  ProgramEditor editor(module_, program, "names_to_numbers");
+  for (const BlockId id : module_.programs[program].blocks) {
+    const Block block = module_.blocks[id];
+    for (const WordId word_id : block.words) {
+      const Word word = module_.words[word_id];
+      if ((word.op != WordOp::kCall && word.op != WordOp::kModalCall) || !word.Extra<CallId>().Valid()) continue;
+      Call call = module_.calls[word.Extra<CallId>()];
+      if (!call.program.Valid()) continue;  // refused elsewhere: an unknown program
+      call.new_level = OwnsLocals(call.program);
+      const IdRange<VariableId> parameters = module_.programs[call.program].parameters;
+      std::vector<Arg> args;
+      std::set<std::uint32_t> references;
+      for (std::uint32_t i = 0; i < parameters.count; ++i) {
+        const Variable parameter = module_.variables[parameters[i]];
+        if (!homes_.contains(parameters[i].value)) continue;
+        const Home home = homes_[parameters[i].value];
+        ExprId given;
+        for (const ArgId arg : call.args) {
+          if (module_.args[arg].position == i) given = module_.args[arg].value;
+        }
+        if (!parameter.by_reference) {
+          Arg arg;
+          arg.position = static_cast<std::uint16_t>(i);
+          const auto mapping = std::find_if(result_.map.begin(), result_.map.end(),
+                                            [&](const CellMapping& m) { return m.variable == parameters[i]; });
+          arg.letter = mapping->letter;
+          // A missing argument is 0 in the source and empty in the target: 0 is passed.
+          arg.value = given.Valid() ? given : parameter.initial.Valid() ? parameter.initial : make_.Literal(0);
+          args.push_back(arg);
+          continue;
+        }
+        const Expr* actual = given.Valid() ? &module_.exprs[given] : nullptr;
+        const bool whole = actual != nullptr && (actual->op == ExprOp::kVariable || actual->op == ExprOp::kCell);
+        if (!whole || word.op == WordOp::kModalCall) {
+          Refuse(module_.RangeOf(block, word), fmt::format("argument {} by reference", module_.View(parameter.name)));
+          continue;
+        }
+        const std::uint32_t key = actual->op == ExprOp::kVariable ? actual->a : actual->b | 0x80000000U;
+        const bool shared = actual->op == ExprOp::kCell;
+        if (!references.insert(key).second || shared) {
+          Refuse(module_.RangeOf(block, word),
+                 fmt::format("argument {} by reference to what the callee may reach another way",
+                             module_.View(parameter.name)));
+          continue;
+        }
+        const std::uint32_t count = CellCount(parameter);
+        const Home source = homes_[actual->a];
+        for (std::uint32_t cell = 0; cell < count; ++cell) {
+          const auto copy = [&](std::uint32_t to, std::uint32_t from) {
+            Word made;
+            made.op = WordOp::kAssign;
+            made.phase = DefaultPhaseOf(WordOp::kAssign);
+            made.extra = make_.Cell(space_, to).value;
+            made.value = make_.Cell(space_, from);
+            Block copy_block = editor.MakeBlock(id);
+            editor.SetWords(copy_block, {made});
+            return copy_block;
+          };
+          Block in = copy(home.cell + cell, source.cell + cell);
+          if (cell == 0) {
+            in.number = block.number;
+            in.number_digits = block.number_digits;
+            module_.blocks[id].number = Block::kNoNumber;
+          }
+          editor.InsertBefore(id, in);
+          editor.InsertAfter(id, copy(source.cell + cell, home.cell + cell));
+        }
+      }
+      call.args = {static_cast<std::uint32_t>(module_.args.Size()), static_cast<std::uint32_t>(args.size())};
+      for (const Arg& arg : args) module_.args.Add(arg);
+      module_.calls[word.Extra<CallId>()] = call;
+    }
+  }
+  editor.Apply();
+}
+
+ExprId Allocation::CellOf(ExprId id) {
+  const Expr expr = module_.exprs[id];
+  switch (expr.op) {
+    case ExprOp::kVariable: {
+      const auto home = homes_.find(expr.a);
+      return home == homes_.end() ? id : make_.Cell(space_, home->second.cell);
+    }
+    case ExprOp::kElement: {
+      const auto home = homes_.find(expr.a);
+      if (home == homes_.end()) return id;
+      const Variable variable = module_.variables[VariableId{expr.a}];
+      // Row by row, the last index fastest (sinumerik-3.5).
+      LinearForm index;
+      for (std::uint32_t i = 0; i < expr.count; ++i) {
+        LinearForm scaled;
+        scaled = Sum(module_, scaled, index, i == 0 ? 1 : variable.dimensions[i]);
+        index = Sum(module_, scaled, FormOf(module_, module_.Item(expr.b + i)));
+      }
+      index.constant += home->second.cell;
+      if (index.IsConstant()) return make_.Cell(space_, static_cast<std::uint32_t>(index.constant));
+      return make_.CellAt(space_, ExprOf(module_, index));
+    }
+    case ExprOp::kCell: {
+      if (SpaceId{expr.a} == space_) return id;
+      const auto offset = offsets_.find(expr.a);
+      if (offset != offsets_.end()) return make_.Cell(space_, static_cast<std::uint32_t>(expr.b + offset->second));
+      const auto cell = cells_.find(static_cast<std::uint64_t>(expr.a) << 32U | expr.b);
+      return cell == cells_.end() ? id : make_.Cell(space_, cell->second);
+    }
+    case ExprOp::kCellAt: {
+      if (SpaceId{expr.b} == space_) return id;
+      const auto offset = offsets_.find(expr.b);
+      if (offset == offsets_.end()) return id;
+      LinearForm index = FormOf(module_, ExprId{expr.a});
+      index.constant += static_cast<double>(offset->second);
+      return make_.CellAt(space_, ExprOf(module_, index));
+    }
+    default:
+      return id;
+  }
+}
+
+void Allocation::ReplaceNames(ProgramId program) {
+  RewriteProgram(module_, program, [this](Module&, ExprId id) { return CellOf(id); });
+}
+
+NamesToNumbersResult Allocation::Run() {
+  result_.ok = true;
+  space_ =
+      AddSpace(module_, config_.space, config_.cells.first, config_.cells.last, Type::kNumber, StartValue::kVacant);
+  FindUses();
+  PlaceSpaces();
+  for (const ProgramId program : module_.programs.Ids()) PlaceProgram(program);
+  for (std::uint32_t i = 0; i < module_.variables.Size(); ++i) {
+    if (!module_.variables[VariableId{i}].owner.Valid()) PlaceLocal({}, VariableId{i});
+  }
+  if (!result_.ok) return std::move(result_);
+  for (const ProgramId program : module_.programs.Ids()) {
+    LowerDefinitions(program);
+    LowerCalls(program);
+  }
+  for (const ProgramId program : module_.programs.Ids()) ReplaceNames(program);
+  return std::move(result_);
+}
+
+}  // namespace
+
+NamesToNumbersResult NamesToNumbers(Module& module, const NamesToNumbersConfig& config, diag::Sink& sink) {
+  return Allocation(module, config, sink).Run();
+}
+
+}  // namespace ncport::ir::transform

@@ -74,9 +74,10 @@ constexpr CodeRow kFixedRows[] = {
     Modal("G41", Op::kCutterComp, ir::CutterComp::kLeft, 7, "sinumerik-8.8"),
     Modal("G42", Op::kCutterComp, ir::CutterComp::kRight, 7, "sinumerik-8.8"),
     Offset("G500", 0), Offset("G54", 54), Offset("G55", 55), Offset("G56", 56), Offset("G57", 57),
-    Action("G53", Op::kMachineCoords, 0, Phase::kSetting, 9, "sinumerik-8.2"),
-    Action("SUPA", Op::kMachineCoords, 1, Phase::kSetting, 9, "sinumerik-8.2"),
-    Action("G153", Op::kMachineCoords, 2, Phase::kSetting, 9, "sinumerik-8.2"),
+    // They differ in the basic frames and handwheel offsets, which no program of the source sets.
+    Action("SUPA", Op::kMachineCoords, 0, Phase::kSetting, 9, "sinumerik-8.2"),
+    Action("G53", Op::kMachineCoords, 0, Phase::kSetting, 9, "sinumerik-8.2", true),
+    Action("G153", Op::kMachineCoords, 0, Phase::kSetting, 9, "sinumerik-8.2", true),
     Modal("G60", Op::kPathMode, ir::PathMode::kExact, 10, "sinumerik-8.2"),
     Modal("G64", Op::kPathMode, ir::PathMode::kContinuous, 10, "sinumerik-8.2"),
     Modal("G641", Op::kPathMode, ir::PathMode::kContinuous, 10, "sinumerik-8.2", true),

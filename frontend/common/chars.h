@@ -1,0 +1,20 @@
+// Classes of characters in program text. Bytes above 127 belong to no class.
+#pragma once
+
+#include <string_view>
+
+namespace ncport::frontend {
+
+constexpr bool IsDigit(char c) { return c >= '0' && c <= '9'; }
+constexpr bool IsLetter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
+constexpr char Upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
+/// Equal without regard to case; `upper` is in upper case.
+constexpr bool IsWord(std::string_view text, std::string_view upper) {
+  if (text.size() != upper.size()) return false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (Upper(text[i]) != upper[i]) return false;
+  }
+  return true;
+}
+
+}  // namespace ncport::frontend

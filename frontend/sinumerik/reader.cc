@@ -1,0 +1,328 @@
+#include "frontend/sinumerik/reader.h"
+
+#include <string>
+
+#include "frontend/common/chars.h"
+#include "frontend/common/line_error.h"
+#include "frontend/common/module_mark.h"
+#include "frontend/common/report_line_error.h"
+#include "frontend/common/shape_cache.h"
+#include "frontend/sinumerik/lower.h"
+#include "frontend/sinumerik/parser.h"
+#include "frontend/sinumerik/reader_state.h"
+#include "frontend/sinumerik/token_source.h"
+#include "ir/structure.h"
+
+namespace ncport::frontend::sinumerik {
+
+namespace {
+
+using diag::Code;
+using ir::WordOp;
+using K = TokenKind;
+
+std::string_view TrimEnd(std::string_view text) {
+  while (!text.empty() && static_cast<unsigned char>(text.back()) <= ' ') text.remove_suffix(1);
+  return text;
+}
+
+bool EndsWithWord(std::string_view text, std::string_view upper) {
+  return text.size() > upper.size() && IsWord(text.substr(text.size() - upper.size()), upper);
+}
+
+/// Position of the word `upper` in `text`, letters around it not counted as a border; npos = not there.
+bool Contains(std::string_view text, std::string_view upper) {
+  for (std::size_t i = 0; i + upper.size() <= text.size(); ++i) {
+    if (IsWord(text.substr(i, upper.size()), upper)) return true;
+  }
+  return false;
+}
+
+/// Mark that a refused block would have been, so that its partner is not a stray.
+WordOp MarkOf(K structure, std::span<const Token> tokens, std::string_view text) {
+  switch (structure) {
+    case K::kIf: return Contains(text, "GOTO") ? WordOp::kMotion : WordOp::kIf;
+    case K::kElse: return WordOp::kElse;
+    case K::kEndIf: return WordOp::kEndIf;
+    case K::kWhile: return WordOp::kWhile;
+    case K::kEndWhile: return WordOp::kEndWhile;
+    case K::kFor: return WordOp::kFor;
+    case K::kEndFor: return WordOp::kEndFor;
+    case K::kLoop: return WordOp::kLoop;
+    case K::kEndLoop: return WordOp::kEndLoop;
+    case K::kRepeat:
+      return !tokens.empty() && static_cast<K>(tokens.back().kind) == K::kRepeat ? WordOp::kRepeat : WordOp::kMotion;
+    case K::kUntil: return WordOp::kUntil;
+    default: return WordOp::kMotion;
+  }
+}
+
+class Reader {
+ public:
+  Reader(const SourceFiles& files, FileId file, const dialects::Profile& profile, const ReadOptions& options,
+         ir::Module& module, diag::Sink& sink)
+      : files_(files),
+        file_(file),
+        profile_(profile),
+        options_(options),
+        module_(module),
+        sink_(sink),
+        source_(module.strings),
+        lowering_(module, profile, state_) {}
+
+  void Read() {
+    const std::string_view name = files_.Name(file_);
+    state_.definition_file = EndsWithWord(name, ".DEF");
+    const bool main = EndsWithWord(name, ".MPF") || (!EndsWithWord(name, ".SPF") && !EndsWithWord(name, ".CPF") &&
+                                                     !state_.definition_file && module_.programs.Empty());
+    const std::uint32_t lines = files_.LineCount(file_);
+    module_.blocks.Reserve(module_.blocks.Size() + lines);
+    module_.origins.Reserve(module_.origins.Size() + lines);
+    for (std::uint32_t line = 1; line <= lines; ++line) {
+      const std::string_view text = files_.Line(file_, line);
+      if (!text.empty() && text[0] == '%' && ReadFileMark(text, line)) continue;
+      if (!state_.program.Valid()) StartProgram(PlainProgramName(name), main ? ir::ProgramKind::kMain : ir::ProgramKind::kSub);
+      ReadLine(text, line);
+    }
+    EndProgram();
+  }
+
+ private:
+  void StartProgram(std::string_view name, ir::ProgramKind kind) {
+    EndProgram();
+    ir::Program program;
+    program.name = module_.strings.Intern(name);
+    program.kind = kind;
+    program.file = file_;
+    program.library = options_.library;
+    program.blocks.begin = static_cast<std::uint32_t>(module_.blocks.Size());
+    state_.program = module_.programs.Add(program);
+    state_.macros.Clear();
+    state_.named_by_header = false;
+    state_.definitions_open = true;
+    state_.other_language = false;
+  }
+
+  void EndProgram() {
+    if (!state_.program.Valid()) return;
+    ir::Program& program = module_.programs[state_.program];
+    program.blocks.count = static_cast<std::uint32_t>(module_.blocks.Size()) - program.blocks.begin;
+    ir::BuildStructure(module_, state_.program, 0, sink_);
+    state_.program = {};
+  }
+
+  // %_N_NAME_MPF starts a program (card 1.1); any other line with % only frames the text.
+  bool ReadFileMark(std::string_view text, std::uint32_t line) {
+    const std::string_view mark = TrimEnd(text);
+    const std::string_view name = mark.substr(1);
+    const bool main = EndsWithWord(name, "_MPF");
+    const bool definitions = EndsWithWord(name, "_DEF");
+    const bool header = name.size() > 3 && (IsWord(name.substr(0, 3), "_N_") || main || EndsWithWord(name, "_SPF"));
+    if (header) {
+      StartProgram(PlainProgramName(name), main ? ir::ProgramKind::kMain : ir::ProgramKind::kSub);
+      state_.named_by_header = true;
+      state_.definition_file = definitions;
+    } else if (!state_.program.Valid()) {
+      return false;
+    } else if (mark.size() > 1) {
+      return false;
+    }
+    ir::Block block = NewBlock(line);
+    ir::Word word;
+    word.op = WordOp::kFileMark;
+    word.length = static_cast<std::uint32_t>(mark.size());
+    word.spelling = static_cast<std::uint16_t>(module_.spellings.size());
+    module_.spellings.push_back({module_.strings.Intern(mark), module_.strings.Intern("sinumerik-1.1")});
+    block.words = {module_.words.Add(word).value, 1};
+    module_.blocks.Add(block);
+    return true;
+  }
+
+  ir::Block NewBlock(std::uint32_t line) {
+    ir::Origin origin;
+    origin.file = file_;
+    origin.line = line;
+    ir::Block block;
+    block.origin = module_.origins.Add(origin);
+    return block;
+  }
+
+  void ReadLine(std::string_view text, std::uint32_t line) {
+    ir::Block block = NewBlock(line);
+    source_.Lex(text, state_.macros);
+    block.indent = static_cast<std::uint16_t>(std::min<std::uint32_t>(source_.Indent(), 0xFFFF));
+    const std::span<const Token> tokens = source_.Tokens();
+    block.words.begin = static_cast<std::uint32_t>(module_.words.Size());
+    if (state_.other_language) {
+      block.indent = 0;
+      if (!text.empty()) Refuse(text, block, 0);
+      if (Contains(text, "G290")) state_.other_language = false;
+      module_.blocks.Add(block);
+      return;
+    }
+    if (!tokens.empty() || source_.Error() != nullptr) {
+      lowering_.ReplayHead(tokens, block);
+      if (const LineError* error = Words(text, line, block)) {
+        ReportLineError(*error, text, {file_, line, 0, 0}, sink_);
+        Refuse(text, block, HeadEnd(tokens, source_.Indent()));
+      }
+    }
+    if (source_.Comment() != TokenSource::kNoComment) AddComment(text, tokens.empty(), block);
+    module_.blocks.Add(block);
+  }
+
+  // Words of the block; null = done, else why not. What was added is then taken back.
+  const LineError* Words(std::string_view text, std::uint32_t line, ir::Block& block) {
+    const std::span<const Token> tokens = source_.Tokens();
+    if (source_.Error() != nullptr) return source_.Error();
+    if (const Token* refused = source_.Refused()) {
+      const bool other_language = IsWord(text.substr(refused->offset, refused->length), "G291");
+      state_.other_language = other_language;
+      error_ = {.code = other_language ? Code::kOtherLanguage : Code::kNotSupported,
+                .begin = refused->offset,
+                .length = refused->length};
+      return &error_;
+    }
+    const Recipe& recipe = RecipeOf(tokens);
+    if (recipe.failed) {
+      const bool at_end = recipe.error.token >= tokens.size();
+      const std::uint32_t end = tokens.empty() ? 0 : tokens.back().End();
+      error_ = {.code = recipe.error.code,
+                .begin = at_end ? end : tokens[recipe.error.token].offset,
+                .length = at_end ? 0 : tokens[recipe.error.token].length,
+                .help = recipe.error.help,
+                .detail = recipe.error.expected};
+      return &error_;
+    }
+    const ModuleMark mark(module_);
+    if (!lowering_.Replay(recipe, tokens, text, line, block)) {
+      mark.Rollback(module_);
+      block.words.count = 0;
+      return &lowering_.Error();
+    }
+    if (const LineError* late = lowering_.Warning()) {
+      ReportLineError(*late, text, {file_, line, 0, 0}, sink_);
+      block.flags |= ir::Block::kRefused;
+    }
+    if (state_.definitions_open && !lowering_.OnlyDefinitions()) CloseDefinitions(block);
+    return nullptr;
+  }
+
+  const Recipe& RecipeOf(std::span<const Token> tokens) {
+    if (options_.shape_cache) {
+      if (const Recipe* known = cache_.Find(tokens)) return *known;
+      return cache_.Add(tokens, parser_.Parse(tokens));
+    }
+    uncached_ = parser_.Parse(tokens);
+    return uncached_;
+  }
+
+  // Words that only tell the editor or the simulation something may stand before definitions.
+  void CloseDefinitions(const ir::Block& block) {
+    for (const ir::WordId id : block.words) {
+      const WordOp op = module_.words[id].op;
+      if (op != WordOp::kInert && op != WordOp::kWorkpiece) state_.definitions_open = false;
+    }
+  }
+
+  static std::uint32_t HeadEnd(std::span<const Token> tokens, std::uint32_t indent) {
+    std::uint32_t end = indent;
+    for (const Token& token : tokens) {
+      const auto kind = static_cast<K>(token.kind);
+      if (kind != K::kSkip && kind != K::kBlockNumber && kind != K::kMainNumber && kind != K::kLabel) break;
+      end = token.End();
+      if (kind == K::kLabel) break;
+    }
+    return end;
+  }
+
+  // Keeps the text of the block behind its number and label.
+  void Refuse(std::string_view text, ir::Block& block, std::uint32_t begin) {
+    const std::uint32_t end = source_.Comment() != TokenSource::kNoComment && !state_.other_language
+                                  ? source_.Comment()
+                                  : static_cast<std::uint32_t>(text.size());
+    while (begin < end && static_cast<unsigned char>(text[begin]) <= ' ') ++begin;
+    const std::string_view kept = TrimEnd(text.substr(begin, end - begin));
+    ir::Word word;
+    word.op = WordOp::kVerbatim;
+    word.index = static_cast<std::uint8_t>(MarkOf(source_.StructureWord(), source_.Tokens(), kept));
+    word.begin = begin;
+    word.length = static_cast<std::uint32_t>(kept.size());
+    word.extra = module_.strings.Intern(kept).value;
+    block.words = {module_.words.Add(word).value, 1};
+    block.flags |= ir::Block::kRefused;
+  }
+
+  void AddComment(std::string_view text, bool own_line, ir::Block& block) {
+    const std::uint32_t at = source_.Comment();
+    ir::Comment comment;
+    comment.text = module_.strings.Intern(TrimEnd(text.substr(at + 1)));
+    if (!own_line) {
+      comment.place = ir::CommentPlace::kEndOfBlock;
+      std::uint32_t gap = 0;
+      while (gap < at && static_cast<unsigned char>(text[at - gap - 1]) <= ' ') ++gap;
+      comment.gap = static_cast<std::uint16_t>(std::min<std::uint32_t>(gap, 0xFFFF));
+    }
+    block.comments = {module_.comments.Add(comment).value, 1};
+  }
+
+  const SourceFiles& files_;
+  FileId file_;
+  const dialects::Profile& profile_;
+  const ReadOptions& options_;
+  ir::Module& module_;
+  diag::Sink& sink_;
+  ReaderState state_;
+  TokenSource source_;
+  Lowering lowering_;
+  ShapeCache cache_;
+  BlockParser parser_;
+  Recipe uncached_;
+  LineError error_;
+};
+
+void AddSpaces(const dialects::Profile& profile, ir::Module& module) {
+  for (const dialects::VariableSpace& space : profile.variables) {
+    bool there = false;
+    for (const ir::Space& known : module.spaces.All()) {
+      there |= module.View(known.name) == space.name && known.first == space.range.first;
+    }
+    if (there) continue;
+    ir::Space record;
+    record.name = module.strings.Intern(space.name);
+    record.first = space.range.first;
+    record.last = space.range.last;
+    record.type = space.type;
+    record.lifetime = space.lifetime;
+    record.visibility = space.visibility;
+    record.start = space.start;
+    module.spaces.Add(record);
+  }
+}
+
+}  // namespace
+
+std::string_view PlainProgramName(std::string_view name) {
+  const std::size_t folder = name.find_last_of("/\\");
+  if (folder != std::string_view::npos) name.remove_prefix(folder + 1);
+  const std::size_t dot = name.find_last_of('.');
+  if (dot != std::string_view::npos && dot != 0) name = name.substr(0, dot);
+  if (name.size() > 3 && IsWord(name.substr(0, 3), "_N_")) name.remove_prefix(3);
+  for (const std::string_view ending : {"_MPF", "_SPF", "_CPF", "_DEF"}) {
+    if (EndsWithWord(name, ending)) {
+      name.remove_suffix(ending.size());
+      break;
+    }
+  }
+  return name;
+}
+
+Status ReadFile(const SourceFiles& files, FileId file, const dialects::Profile& profile, const ReadOptions& options,
+                ir::Module& module, diag::Sink& sink) {
+  const std::size_t errors = sink.ErrorCount();
+  AddSpaces(profile, module);
+  Reader(files, file, profile, options, module, sink).Read();
+  return sink.ErrorCount() == errors ? Status{} : Status{Failure{}};
+}
+
+}  // namespace ncport::frontend::sinumerik

@@ -32,4 +32,10 @@ struct WordShape {
 
 WordShape ShapeOf(WordOp op);
 
+/// True if dumps write Word::mode behind the index; the extra of other words starts with a name that could be a mode's.
+inline bool HasInlineMode(WordOp op) {
+  const ExtraKind extra = ShapeOf(op).extra;
+  return extra == ExtraKind::kNone || extra == ExtraKind::kExpr;
+}
+
 }  // namespace ncport::ir

@@ -186,8 +186,14 @@ bool FlatWriter::FlushIfFull() {
     failed_ = true;
     return false;
   }
-  failed_ = !output_.Flush(out_).Ok();
+  failed_ = !Flush().Ok();
   return !failed_;
+}
+
+Status FlatWriter::Flush() {
+  if (!options_.only_listener) return output_.Flush(out_);
+  out_.Clear();
+  return {};
 }
 
 Status FlatWriter::Finish() {
@@ -207,7 +213,7 @@ Status FlatWriter::Finish() {
   BeginLine();
   Put(target_.words.end.Or("M30"));
   EndLine();
-  return output_.Flush(out_);
+  return Flush();
 }
 
 // --- comments of the source

@@ -44,6 +44,7 @@ struct FlatOptions {
   const exec::Coverage* coverage = nullptr;        // of the same run: which blocks ran. Without it all count as run.
   std::uint64_t max_bytes = std::uint64_t{1} << 30U;
   bool tool_changes_at_t = false;                  // the source changes tools at T, without M6
+  bool only_listener = false;                      // the text goes to the listener alone
 };
 
 /// Writes the events of one run to `output`. Call Finish behind the run.
@@ -68,6 +69,7 @@ class FlatWriter final : public exec::EventSink {
   void EndLine();
   void CloseOpenLine();
   bool FlushIfFull();
+  Status Flush();
   void CommentLine(std::string_view prefix, std::string_view text);
   void EnterBlock(ir::BlockId block);
   void WriteNotesBefore(ir::BlockId block);

@@ -1,0 +1,99 @@
+// ncport as a library: program text in, result text and findings out. Touches no file but through the callbacks given.
+//
+//   ncport::Context context;
+//   std::string text;
+//   OutputSink output(text);
+//   ncport::TraceOptions options;
+//   options.run.from = "sinumerik-840d-mill";
+//   const bool done = ncport::Trace(context, {{"main.mpf", bytes}}, options, output).Ok();
+//   // context.findings holds what was found
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/diag/sink.h"
+#include "base/result.h"
+#include "base/source_files.h"
+#include "base/text_buffer.h"
+#include "dialects/config.h"
+
+namespace ncport {
+
+/// The texts that were read and what was found in them. One for each call of a function below.
+struct Context {
+  SourceFiles files;
+  diag::Sink findings;
+};
+
+/// A program file: its name as findings print it, and its bytes as they stand in the file.
+struct Input {
+  std::string name;
+  std::string bytes;
+};
+
+/// Finds the file of a called program by the name that the call gives (`RING`, `L10`, `O9810`); nothing: it is not there.
+using FileProvider = std::function<std::optional<Input>(std::string_view program)>;
+
+/// What every function takes.
+struct ReadSettings {
+  std::string from;                          // profile of the input; empty: from `config`, else guessed where that is allowed
+  const dialects::Config* config = nullptr;  // ncport.toml
+  FileProvider find;                         // may be empty: all programs are among the inputs
+};
+
+/// What the functions take that run a program.
+struct RunSettings : ReadSettings {
+  std::string call;                          // `RING(10,,2.5)`; empty: the first program of the first input
+  std::vector<std::string> set;              // `R1=5`, `NAME=VALUE`
+  std::string start;                         // `X0Y0Z0` as the profile programs them; empty: position unknown
+  std::uint64_t max_blocks = 10'000'000;
+};
+
+enum class TraceFormat : std::uint8_t { kText, kJson };
+struct TraceOptions : RunSettings {
+  TraceFormat format = TraceFormat::kText;
+  bool variables = false;                    // final values behind the last event
+};
+
+struct FlattenOptions : RunSettings {
+  std::string to;                            // profile of the output; empty: from `config`
+  bool side_by_side = false;                 // source blocks beside flat ones, for reading; not a program
+  OutputSink* source_map = nullptr;          // JSON lines {version, out, file, line, calls, turns}
+  std::string output_name;                   // `out` of the source map
+  std::uint64_t max_bytes = std::uint64_t{1} << 30U;
+};
+
+struct CheckOptions : ReadSettings {
+  std::vector<std::string> select, ignore;   // codes or their first characters (`NC5`); empty select: all
+};
+
+enum class DumpStage : std::uint8_t { kTokens, kIr, kCfg };
+struct DumpOptions : ReadSettings {
+  DumpStage stage = DumpStage::kIr;
+};
+
+/// Runs the program and writes its events. Fails after errors and after an alarm of the program.
+Status Trace(Context& context, const std::vector<Input>& inputs, const TraceOptions& options, OutputSink& output);
+
+/// Runs the program and writes flat blocks. After a failure what was written is worthless.
+Status Flatten(Context& context, const std::vector<Input>& inputs, const FlattenOptions& options, OutputSink& output);
+
+/// Reads and checks all programs. Fails when an error was found. Findings that a comment `ncport: ignore NCxxxx` or the options
+/// silence are not in the context.
+Status Check(Context& context, const std::vector<Input>& inputs, const CheckOptions& options);
+
+/// Shows a stage of the compiler as text.
+Status Dump(Context& context, const std::vector<Input>& inputs, const DumpOptions& options, OutputSink& output);
+
+/// The page on a diagnostic (`NC3001`): why, wrong example, right example, remedy. Empty: there is no such code.
+std::string_view Explain(std::string_view code);
+
+/// "0.1.0"
+std::string_view Version();
+
+}  // namespace ncport

@@ -1,0 +1,128 @@
+#include "app/pipeline.h"
+
+#include <fmt/format.h>
+
+#include <set>
+#include <string>
+#include <utility>
+
+#include "app/run_arguments.h"
+#include "base/encoding.h"
+#include "dialects/registry.h"
+#include "frontend/reader.h"
+
+namespace ncport::app {
+namespace {
+
+/// Decodes one file and adds it. Fails when it is no text.
+Status AddFile(Context& context, const Input& input, FileId& id) {
+  if (input.bytes.size() > SourceFiles::kMaxBytes) {
+    id = context.files.Add(input.name, {});
+    context.findings.Report(diag::Code::kFileTooLarge, SourceRange{.file = id}, input.bytes.size(), SourceFiles::kMaxBytes);
+    return Failure{};
+  }
+  DecodedText decoded = DecodeText(input.bytes);
+  id = context.files.Add(input.name, std::move(decoded.text));
+  if (decoded.is_binary) {
+    context.findings.Report(diag::Code::kBinaryFile, SourceRange{.file = id}, std::string(decoded.binary_reason));
+    return Failure{};
+  }
+  if (decoded.control_bytes != 0) context.findings.Report(diag::Code::kControlBytes, SourceRange{.file = id}, decoded.control_bytes);
+  return {};
+}
+
+/// Reads called programs until nothing new is asked for.
+Status ReadCalled(Context& context, const ReadSettings& settings, ProgramSet& set) {
+  Status ok;
+  if (!settings.find) return ok;
+  std::set<std::string> asked;
+  bool more = true;
+  while (more) {
+    more = false;
+    for (const StringId callee : frontend::UnknownCallees(set.module)) {
+      const std::string name(set.module.View(callee));
+      if (!asked.insert(name).second) continue;
+      std::optional<Input> found = settings.find(name);
+      if (!found || context.files.Find(found->name).Valid()) continue;
+      FileId id;
+      const Status added = AddFile(context, *found, id);
+      ok &= added;
+      if (added.Ok()) ok &= frontend::ReadFile(context.files, id, set.profile, {}, set.module, context.findings);
+      more = true;
+    }
+  }
+  return ok;
+}
+
+}  // namespace
+
+Result<dialects::Profile> ChooseProfile(Context& context, const Input& first, const ReadSettings& settings, ProfileNeed need) {
+  if (!settings.from.empty()) return dialects::LoadProfile(settings.from, context.files, context.findings);
+  if (settings.config != nullptr && settings.config->from) {
+    return dialects::LoadProfile(*settings.config->from, context.files, context.findings);
+  }
+  if (need == ProfileNeed::kNamed) {
+    context.findings.Report(diag::Code::kNoProfile, SourceRange{}, first.name).help =
+        "name the machine with --from, or `from` in ncport.toml; `ncport list profiles` shows them";
+    return Failure{};
+  }
+  const DecodedText decoded = DecodeText(first.bytes);
+  const dialects::LanguageGuess guess = dialects::GuessLanguage(first.name, decoded.text);
+  if (!guess.Certain()) {
+    std::string reasons;
+    for (std::size_t i = 0; i < guess.languages.size(); ++i) {
+      if (i != 0) reasons += ", ";
+      reasons += fmt::format("{} ({})", dialects::NameOf(guess.languages[i]), guess.reasons[i]);
+    }
+    if (reasons.empty()) reasons = "neither its name nor its text speaks for one";
+    context.findings.Report(diag::Code::kUnclearLanguage, SourceRange{}, first.name, reasons).help =
+        "name the machine with --from; `ncport list profiles` shows them";
+    return Failure{};
+  }
+  const std::string name(dialects::UsualProfile(guess));
+  std::string reason = guess.reasons.front();
+  if (guess.lathe) reason += ", " + guess.lathe_reason;
+  context.findings.Report(diag::Code::kGuessedProfile, SourceRange{}, name, reason).help = "name the machine with --from";
+  return dialects::LoadProfile(name, context.files, context.findings);
+}
+
+Status ReadSet(Context& context, const std::vector<Input>& inputs, const ReadSettings& settings, ProfileNeed need, ProgramSet& set) {
+  NCPORT_TRY_ASSIGN(set.profile, ChooseProfile(context, inputs.front(), settings, need));
+  Status ok;
+  for (const Input& input : inputs) {
+    FileId id;
+    const Status added = AddFile(context, input, id);
+    set.inputs.push_back(id);
+    ok &= added;
+    if (added.Ok()) ok &= frontend::ReadFile(context.files, id, set.profile, {}, set.module, context.findings);
+  }
+  ok &= ReadCalled(context, settings, set);
+  frontend::ResolveNames(context.files, set.module, set.profile, context.findings);
+  return context.findings.HasErrors() ? ok & Failure{} : ok;
+}
+
+Result<exec::RunOptions> RunOptionsFor(Context& context, const ProgramSet& set, const RunSettings& settings) {
+  exec::RunOptions options;
+  options.max_blocks = settings.max_blocks;
+  const bool ignore_case = set.profile.names.ignore_case.Or(true);
+  if (!settings.call.empty()) {
+    NCPORT_TRY(ApplyCall(settings.call, set.module, ignore_case, options, context.findings));
+  } else {
+    for (const ir::ProgramId id : set.module.programs.Ids()) {
+      if (set.module.programs[id].file != set.inputs.front()) continue;
+      options.entry = id;
+      break;
+    }
+    if (!options.entry.Valid()) {
+      context.findings.Report(diag::Code::kUnknownProgram, SourceRange{.file = set.inputs.front()}, "to run");
+      return Failure{};
+    }
+  }
+  Status ok;
+  for (const std::string& start : settings.set) ok &= ApplySet(start, set.module, ignore_case, options, context.findings);
+  if (!settings.start.empty()) ok &= ApplyStart(settings.start, set.profile, options, context.findings);
+  NCPORT_TRY(ok);
+  return options;
+}
+
+}  // namespace ncport::app

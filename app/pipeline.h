@@ -1,0 +1,36 @@
+// From texts to a linked module and its runs: what all commands share. Holds no rule of a language.
+#pragma once
+
+#include <vector>
+
+#include "app/ncport.h"
+#include "base/result.h"
+#include "dialects/profile.h"
+#include "exec/event.h"
+#include "exec/run.h"
+#include "ir/machine.h"
+#include "ir/module.h"
+
+namespace ncport::app {
+
+/// What a command asks of `--from`: without it the profile is guessed (check, trace, dump) or refused (translate, flatten).
+enum class ProfileNeed : std::uint8_t { kGuess, kNamed };
+
+/// A complete set of programs in one module.
+struct ProgramSet {
+  dialects::Profile profile;
+  ir::Module module;
+  std::vector<FileId> inputs;   // of the command, in order
+};
+
+/// Chooses the profile (contracts section 1). Fails after findings.
+Result<dialects::Profile> ChooseProfile(Context& context, const Input& first, const ReadSettings& settings, ProfileNeed need);
+
+/// Reads the inputs, then the called programs that they lack and `settings.find` has, and resolves all names. Fails after
+/// errors, but the set is complete as far as it could be read.
+Status ReadSet(Context& context, const std::vector<Input>& inputs, const ReadSettings& settings, ProfileNeed need, ProgramSet& set);
+
+/// Entry, arguments, start values of a run. Fails after findings.
+Result<exec::RunOptions> RunOptionsFor(Context& context, const ProgramSet& set, const RunSettings& settings);
+
+}  // namespace ncport::app

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <utility>
 
-#include "backends/common/word_template.h"
 #include "backends/iso/flat_numbers.h"
 #include "backends/iso/flat_writer.h"
 #include "base/number_text.h"
+#include "dialects/word_template.h"
 
 namespace ncport::backends::iso {
 namespace {
@@ -22,6 +22,11 @@ void FlatWriter::WriteWords(std::string_view words) {
   BeginLine();
   Put(words);
   EndLine();
+}
+
+void FlatWriter::PutTemplate(std::string_view form, std::span<const dialects::TemplateValue> values) {
+  if (out_.size() != line_begin_) out_.Append(' ');
+  dialects::AppendTemplate(out_, form, values);
 }
 
 // --- what waits for the next event
@@ -68,9 +73,9 @@ bool FlatWriter::AppendSpeed(const dialects::Setting<std::string>& form, std::st
     Refuse(diag::Code::kWordTooCoarse, fmt::format("speed {}", speed), "0");
     return false;
   }
-  const Hole holes[] = {{.name = "speed", .number = whole, .text = {}}};
-  if (out_.size() != line_begin_) out_.Append(' ');
-  AppendTemplate(out_, words, holes);
+  const std::string text = fmt::format("{}", whole);
+  const dialects::TemplateValue values[] = {{"speed", text}};
+  PutTemplate(words, values);
   return true;
 }
 
@@ -138,8 +143,18 @@ void FlatWriter::WriteTool(const ToolMap::Answer& answer) {
     // A tool without an offset: the register 00 is none.
     return WriteWords(fmt::format("T{:0>2}00", answer.tool));
   }
-  WriteWords("T" + answer.tool);
-  if (options_.tool_changes_at_t) WriteWords("M6");
+  // The profile's form may hold the word that changes the tool. In the source that is a word of its own, unless T changes at once.
+  const dialects::TemplateValue values[] = {{"tool", answer.tool}};
+  std::string_view form = target_.words.tool.Known() ? std::string_view(*target_.words.tool) : std::string_view("T{tool} M6");
+  while (!form.empty()) {
+    const std::size_t blank = form.find(' ');
+    const std::string_view word = form.substr(0, blank);
+    form = blank == std::string_view::npos ? std::string_view{} : form.substr(blank + 1);
+    if (word.empty() || (word[0] == 'M' && !options_.tool_changes_at_t)) continue;
+    BeginLine();
+    PutTemplate(word, values);
+    EndLine();
+  }
 }
 
 void FlatWriter::ToolCall(const exec::Event& event) {
@@ -177,9 +192,11 @@ void FlatWriter::LatheOffset(const exec::Event& event) {
     return;
   }
   const std::int64_t offset = event.offset == exec::OffsetKind::kNone ? 0 : event.number;
-  const Hole holes[] = {{.name = "tool", .number = tools_.Number(), .text = {}}, {.name = "offset", .number = offset, .text = {}}};
+  const std::string tool_text = fmt::format("{}", tools_.Number());
+  const std::string offset_text = fmt::format("{}", offset);
+  const dialects::TemplateValue values[] = {{"tool", tool_text}, {"offset", offset_text}};
   BeginLine();
-  AppendTemplate(out_, target_.words.tool.Known() ? std::string_view(*target_.words.tool) : "T{tool:02}{offset:02}", holes);
+  PutTemplate(target_.words.tool.Known() ? std::string_view(*target_.words.tool) : "T{tool:02}{offset:02}", values);
   EndLine();
 }
 
@@ -282,10 +299,9 @@ void FlatWriter::Dwell(const exec::Event& event) {
   TextBuffer number;
   AppendWord(number, ' ', thousandths, 3);
   const std::string_view text = number.View().substr(1);
-  const Hole holes[] = {{.name = turns ? "revolutions" : "seconds", .number = 0, .text = text}};
+  const dialects::TemplateValue values[] = {{turns ? "revolutions" : "seconds", text}};
   BeginLine();
-  if (out_.size() != line_begin_) out_.Append(' ');
-  AppendTemplate(out_, words, holes);
+  PutTemplate(words, values);
   EndLine();
 }
 

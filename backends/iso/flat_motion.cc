@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 
-#include "backends/common/word_template.h"
 #include "backends/iso/flat_numbers.h"
 #include "backends/iso/flat_writer.h"
 
@@ -94,7 +93,7 @@ void FlatWriter::AppendModes(const exec::Event& event, bool feed_move) {
       usual = lathe_ ? "G95" : "";  // the card gives G95 to lathes only
       what = "feed per revolution";
       break;
-    case ir::FeedMode::kInverseTime:
+    case ir::FeedMode::kInverseTime: form = &words.feed_inverse_time; break;
     case ir::FeedMode::kUnknown: break;
   }
   const std::string_view word = form == nullptr ? std::string_view{} : form->Known() ? std::string_view(**form) : usual;
@@ -109,13 +108,15 @@ void FlatWriter::AppendModes(const exec::Event& event, bool feed_move) {
 }
 
 void FlatWriter::AppendFeed(const exec::Event& event) {
-  const double shown = Length(event.feed);
+  // As inverse time it is no length, and each block needs its own.
+  const bool inverse = event.feed_mode == ir::FeedMode::kInverseTime;
+  const double shown = inverse ? event.feed : Length(event.feed);
   if (!(std::fabs(shown * feed_scale_) < kMaxIncrements)) {
     Refuse(diag::Code::kOutOfRange, fmt::format("feed {}", shown), "what a word can hold");
     return;
   }
   const std::int64_t feed = RoundToIncrements(shown, feed_scale_);
-  if (feed == feed_) return;
+  if (feed == feed_ && !inverse) return;
   if (feed <= 0) Refuse(diag::Code::kWordTooCoarse, fmt::format("feed {}", event.feed), fmt::format("{}", decimals_));
   feed_ = feed;
   AppendNumber('F', feed);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "backends/common/word_template.h"
 #include "backends/iso/comment_text.h"
 #include "backends/iso/flat_numbers.h"
 #include "base/number_text.h"

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "base/text_buffer.h"
 #include "dialects/config.h"
 #include "dialects/profile.h"
+#include "dialects/word_template.h"
 #include "exec/event.h"
 #include "exec/run.h"
 #include "ir/module.h"
@@ -66,6 +68,7 @@ class FlatWriter final : public exec::EventSink {
   void WriteHeader(const exec::Event& first);
   void BeginLine();
   void Put(std::string_view word);
+  void PutTemplate(std::string_view form, std::span<const dialects::TemplateValue> values);
   void EndLine();
   void CloseOpenLine();
   bool FlushIfFull();

@@ -1,0 +1,392 @@
+#include "prove/verify.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <set>
+
+#include "exec/link.h"
+#include "ir/builder.h"
+
+namespace ncport::prove {
+
+namespace {
+
+/// A side whose inputs can be set: arguments of calls become literals of a private copy, whose numbers change from run
+/// to run while everything that was linked stays.
+class Stage {
+ public:
+  Stage(const Side& side, const std::vector<BoundInput>& inputs, bool source);
+
+  void Set(const ParameterSet& set);
+  exec::Outcome Run(std::uint16_t skip_levels, std::uint64_t max_blocks, RecordedTrace& trace, diag::Sink& sink,
+                    exec::Coverage* coverage);
+  /// Modal groups random, cells of `garbage` filled, position unknown.
+  void Poison(Random& random, const std::vector<ir::SpaceId>& garbage);
+  void Unpoison();
+  [[nodiscard]] const ir::Module& Module() const { return module_; }
+
+ private:
+  void Bind(const InputPlace& place, std::size_t input);
+
+  ir::Module module_;
+  ir::Machine machine_;
+  const ir::Machine& clean_machine_;
+  std::unique_ptr<exec::Linked> linked_;
+  exec::RunOptions options_;
+  std::size_t clean_start_values_ = 0;
+  std::vector<std::pair<ir::ExprId, std::size_t>> literals_;    // node, input
+  std::vector<std::pair<std::size_t, std::size_t>> arguments_;  // of the entry: index, input
+  std::vector<std::pair<std::size_t, std::size_t>> cells_;      // start value, input
+};
+
+Stage::Stage(const Side& side, const std::vector<BoundInput>& inputs, bool source)
+    : module_(*side.module), machine_(*side.machine), clean_machine_(*side.machine) {
+  options_.entry = side.entry;
+  options_.is_call = side.is_call;
+  options_.report_variables = true;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    for (const InputPlace& place : source ? inputs[i].source : inputs[i].target) Bind(place, i);
+  }
+  clean_start_values_ = options_.start_values.size();
+  linked_ = std::make_unique<exec::Linked>(module_, machine_);
+}
+
+void Stage::Bind(const InputPlace& place, std::size_t input) {
+  if (!place.callee.Valid()) {
+    exec::StartValue start;
+    start.space = place.space;
+    start.cell = place.cell;
+    cells_.emplace_back(options_.start_values.size(), input);
+    options_.start_values.push_back(start);
+    return;
+  }
+  if (place.callee == options_.entry) {
+    exec::EntryArgument argument;
+    argument.position = place.position;
+    argument.letter = place.letter;
+    arguments_.emplace_back(options_.arguments.size(), input);
+    options_.arguments.push_back(argument);
+    return;
+  }
+  // Expressions stand before the nodes that use them; arguments have none, so their literals may stand at the end.
+  ir::ExprBuilder make(module_);
+  for (const ir::CallId id : module_.calls.Ids()) {
+    ir::Call call = module_.calls[id];
+    if (call.program != place.callee) continue;
+    const ir::ExprId literal = make.Literal(0);
+    literals_.emplace_back(literal, input);
+    bool found = false;
+    for (const ir::ArgId arg : call.args) {
+      ir::Arg& given = module_.args[arg];
+      if (place.letter != 0 ? given.letter != place.letter : given.position != place.position) continue;
+      given.value = literal;
+      found = true;
+    }
+    if (found) continue;
+    // The call leaves this argument out: it gets one.
+    IdRange<ir::ArgId> args{static_cast<std::uint32_t>(module_.args.Size()), call.args.count + 1};
+    for (const ir::ArgId arg : call.args) {
+      const ir::Arg kept = module_.args[arg];
+      module_.args.Add(kept);
+    }
+    ir::Arg added;
+    added.position = place.position;
+    added.letter = place.letter;
+    added.value = literal;
+    module_.args.Add(added);
+    call.args = args;
+    module_.calls[id] = call;
+  }
+}
+
+void Stage::Set(const ParameterSet& set) {
+  for (const auto& [literal, input] : literals_) module_.exprs[literal].number = set[input];
+  for (const auto& [argument, input] : arguments_) options_.arguments[argument].value = exec::Value::Real(set[input]);
+  for (const auto& [cell, input] : cells_) options_.start_values[cell].value = exec::Value::Real(set[input]);
+}
+
+exec::Outcome Stage::Run(std::uint16_t skip_levels, std::uint64_t max_blocks, RecordedTrace& trace, diag::Sink& sink,
+                         exec::Coverage* coverage) {
+  trace.Clear();
+  options_.skip_levels = skip_levels;
+  options_.max_blocks = max_blocks;
+  exec::NoEnvironment environment;
+  return exec::Run(*linked_, options_, environment, trace, sink, coverage).outcome;
+}
+
+void Stage::Poison(Random& random, const std::vector<ir::SpaceId>& garbage) {
+  ir::ModalState& start = machine_.start;
+  start.motion = static_cast<ir::Motion>(2 + random.Below(2));
+  start.plane = static_cast<ir::Plane>(1 + random.Below(3));
+  if (clean_machine_.start.distance == ir::Distance::kUnknown || random.Below(2) == 0) {
+    start.distance = static_cast<ir::Distance>(1 + random.Below(2));
+  }
+  start.feed_mode = static_cast<ir::FeedMode>(1 + random.Below(2));
+  start.speed_mode = static_cast<ir::SpeedMode>(1 + random.Below(2));
+  start.units = static_cast<ir::Units>(1 + random.Below(2));
+  start.path = static_cast<ir::PathMode>(1 + random.Below(2));
+  start.comp = ir::CutterComp::kOff;
+  machine_.position_known = false;
+  for (const ir::SpaceId space : garbage) {
+    const ir::Space& cells = module_.spaces[space];
+    for (std::uint32_t cell = std::max(cells.first, 1U); cell <= cells.last && cell < cells.first + 1000; ++cell) {
+      exec::StartValue value;
+      value.space = space;
+      value.cell = cell;
+      value.value = exec::Value::Real(std::round(random.Between(-999, 999) * 1000) / 1000);
+      options_.start_values.push_back(value);
+    }
+  }
+}
+
+void Stage::Unpoison() {
+  machine_.start = clean_machine_.start;
+  machine_.position_known = clean_machine_.position_known;
+  options_.start_values.resize(clean_start_values_);
+}
+
+bool IsBranch(const ir::Module& module, const ir::Block& block) {
+  for (const ir::WordId id : block.words) {
+    const ir::Word& word = module.words[id];
+    switch (word.op) {
+      case ir::WordOp::kIf:
+      case ir::WordOp::kWhile:
+      case ir::WordOp::kUntil:
+      case ir::WordOp::kFor:
+      case ir::WordOp::kWhen:
+        return module.exprs[word.value].op != ir::ExprOp::kLiteral || word.op == ir::WordOp::kFor;
+      case ir::WordOp::kJump:
+        if (word.value.Valid()) return true;
+        break;
+      default:
+        break;
+    }
+  }
+  return false;
+}
+
+class Verifier {
+ public:
+  Verifier(const Side& source, const Side& target, const std::vector<BoundInput>& inputs, const VerifyOptions& options,
+           diag::Sink& sink)
+      : options_(options),
+        sink_(sink),
+        source_(source, inputs, true),
+        target_(target, inputs, false),
+        sets_(InputsOf(inputs), options.seed),
+        random_(options.seed ^ 0xA5A5A5A5U) {}
+
+  Verification Run();
+
+ private:
+  static std::vector<Input> InputsOf(const std::vector<BoundInput>& bound) {
+    std::vector<Input> inputs;
+    for (const BoundInput& input : bound) inputs.push_back(input.input);
+    return inputs;
+  }
+  /// Runs one set; false: stop, something differs or cannot run.
+  bool RunSet(const ParameterSet& set);
+  bool ComparePair(const ParameterSet& set, std::uint16_t skip_levels, std::string_view start,
+                   exec::Coverage* coverage);
+  bool CompareFinalValues(const ParameterSet& set, std::string_view start);
+  bool AimAtMultiples(const ParameterSet& set);
+  void CollectSkipLevels();
+  void CountBranches();
+  [[nodiscard]] bool Done() const { return result_.difference.has_value() || !result_.not_compared.empty(); }
+
+  const VerifyOptions& options_;
+  diag::Sink& sink_;
+  Stage source_, target_;
+  ParameterSource sets_;
+  Random random_;
+  std::set<ParameterSet> seen_;
+  std::vector<std::uint16_t> skip_levels_;  // each level alone, then all
+  std::vector<std::uint8_t> covered_;
+  RecordedTrace source_trace_, target_trace_;
+  exec::Coverage coverage_;
+  bool moved_ = false, alarmed_ = false;  // of the last clean run
+  Verification result_;
+};
+
+void Verifier::CollectSkipLevels() {
+  std::uint16_t levels = 0;
+  for (const ir::Block& block : source_.Module().blocks.All()) {
+    if (block.skip_level != ir::Block::kNoSkip) levels = static_cast<std::uint16_t>(levels | (1U << block.skip_level));
+  }
+  for (std::uint8_t level = 0; level < 16; ++level) {
+    if (levels >> level & 1U) skip_levels_.push_back(static_cast<std::uint16_t>(1U << level));
+  }
+  if (skip_levels_.size() > 1) skip_levels_.push_back(levels);
+}
+
+bool Verifier::CompareFinalValues(const ParameterSet& set, std::string_view start) {
+  const auto value_of = [](const RecordedTrace& trace, std::string_view name) -> std::string_view {
+    for (const exec::Event& event : trace.Events()) {
+      if (event.kind == exec::EventKind::kSetVariable && event.text == name) return event.code;
+    }
+    return {};
+  };
+  for (const auto& [source_name, target_name] : options_.final_values) {
+    const std::string_view a = value_of(source_trace_, source_name);
+    const std::string_view b = value_of(target_trace_, target_name);
+    if (a.empty() && b.empty()) continue;
+    const double x = a.empty() ? 0 : std::strtod(std::string(a).c_str(), nullptr);
+    const double y = b.empty() ? 0 : std::strtod(std::string(b).c_str(), nullptr);
+    if (std::fabs(x - y) <= 1e-6 * std::max({1.0, std::fabs(x), std::fabs(y)})) continue;
+    result_.difference = Difference{fmt::format("{} ends as {}, {} as {}", source_name, a, target_name, b), {}, {}};
+    result_.difference_set = set;
+    result_.difference_start = start;
+    return false;
+  }
+  return true;
+}
+
+bool Verifier::ComparePair(const ParameterSet& set, std::uint16_t skip_levels, std::string_view start,
+                           exec::Coverage* coverage) {
+  const exec::Outcome a = source_.Run(skip_levels, options_.max_blocks, source_trace_, sink_, coverage);
+  const exec::Outcome b = target_.Run(skip_levels, options_.max_blocks, target_trace_, sink_, nullptr);
+  const auto broken = [](exec::Outcome outcome) {
+    return outcome != exec::Outcome::kEnded && outcome != exec::Outcome::kAlarmed;
+  };
+  if (broken(a) || broken(b)) {
+    result_.not_compared = fmt::format("a run of the {} could not go on", broken(a) ? "source" : "target");
+    return false;
+  }
+  Comparison comparison = Compare(source_trace_, target_trace_, options_.compare);
+  result_.events_compared += comparison.events_compared;
+  result_.spindle_moved_across_rapid += comparison.spindle_moved_across_rapid;
+  result_.longest_trace = std::max(result_.longest_trace, source_trace_.Events().size());
+  alarmed_ = comparison.source_alarmed_before_motion;
+  moved_ = std::any_of(source_trace_.Events().begin(), source_trace_.Events().end(),
+                       [](const exec::Event& event) { return IsMotion(event.kind); });
+  if (comparison.difference) {
+    result_.difference = std::move(comparison.difference);
+    result_.difference_set = set;
+    result_.difference_start = start;
+    return false;
+  }
+  return a != exec::Outcome::kEnded || CompareFinalValues(set, start);
+}
+
+bool Verifier::RunSet(const ParameterSet& set) {
+  source_.Set(set);
+  target_.Set(set);
+  coverage_.quotients.clear();
+  coverage_.blocks.assign(source_.Module().blocks.Size(), 0);
+  if (!ComparePair(set, 0, "clean start", &coverage_)) return false;
+  for (std::size_t i = 0; i < coverage_.blocks.size(); ++i)
+    covered_[i] = static_cast<std::uint8_t>(covered_[i] | coverage_.blocks[i]);
+  ++result_.sets_run;
+  if (alarmed_) {
+    ++result_.alarms_agreed;
+  } else {
+    ++result_.sets_counted;
+  }
+  const std::vector<exec::Quotient> quotients = coverage_.quotients;
+  for (const std::uint16_t levels : skip_levels_) {
+    coverage_.blocks.assign(source_.Module().blocks.Size(), 0);
+    if (!ComparePair(set, levels, fmt::format("skip levels {:#x} on", levels), &coverage_)) return false;
+    for (std::size_t i = 0; i < coverage_.blocks.size(); ++i)
+      covered_[i] = static_cast<std::uint8_t>(covered_[i] | coverage_.blocks[i]);
+  }
+  target_.Poison(random_, options_.garbage);
+  const bool same = ComparePair(set, 0, "poisoned start", nullptr);
+  target_.Unpoison();
+  coverage_.quotients = quotients;
+  return same;
+}
+
+/// Changes one input so that a quotient of the last run becomes whole: numerator and denominator are taken as linear in
+/// it, which two runs tell.
+bool Verifier::AimAtMultiples(const ParameterSet& set) {
+  const std::vector<exec::Quotient> first = coverage_.quotients;
+  if (first.empty() || sets_.Inputs().empty()) return true;
+  const exec::Quotient aim = first[random_.Below(first.size())];
+  const std::size_t index = random_.Below(set.size());
+  if (sets_.Inputs()[index].integer) return true;
+  const double step = std::max(0.5, std::fabs(set[index]) / 16);
+  const std::optional<ParameterSet> moved = sets_.With(set, index, set[index] + step);
+  if (!moved) return true;
+  const auto quotient_of = [&](const ParameterSet& values) -> std::optional<exec::Quotient> {
+    source_.Set(values);
+    coverage_.quotients.clear();
+    diag::Sink quiet;
+    source_.Run(0, options_.max_blocks, source_trace_, quiet, &coverage_);
+    for (const exec::Quotient& quotient : coverage_.quotients) {
+      if (quotient.expr == aim.expr) return quotient;
+    }
+    return std::nullopt;
+  };
+  const std::optional<exec::Quotient> there = quotient_of(*moved);
+  if (!there) return true;
+  const double numerator_slope = (there->numerator - aim.numerator) / step;
+  const double denominator_slope = (there->denominator - aim.denominator) / step;
+  const double whole = std::round(aim.numerator / aim.denominator) + static_cast<double>(random_.Below(3));
+  const double slope = numerator_slope - whole * denominator_slope;
+  if (slope == 0 || !std::isfinite(whole)) return true;
+  const double value = set[index] + (whole * aim.denominator - aim.numerator) / slope;
+  const std::optional<ParameterSet> exact = sets_.With(set, index, std::round(value * 1e6) / 1e6);
+  if (!exact || !seen_.insert(*exact).second) return true;
+  const std::optional<exec::Quotient> reached = quotient_of(*exact);
+  const bool hit = reached && std::fabs(reached->numerator - std::round(reached->numerator / reached->denominator) *
+                                                                 reached->denominator) < 1e-9;
+  if (hit) ++result_.exact_multiples;
+  return RunSet(*exact);
+}
+
+void Verifier::CountBranches() {
+  const ir::Module& module = source_.Module();
+  for (const ir::Program& program : module.programs.All()) {
+    for (const ir::BlockId id : program.blocks) {
+      const ir::Block& block = module.blocks[id];
+      const std::uint8_t bits = covered_[id.value];
+      if ((bits & 1U) == 0 || !IsBranch(module, block)) continue;  // not reached: the branch before it is the open one
+      const bool listed = std::find(options_.listed_branches.begin(), options_.listed_branches.end(), id) !=
+                          options_.listed_branches.end();
+      for (const bool taken : {true, false}) {
+        ++result_.branches;
+        if ((bits & (taken ? 2U : 4U)) != 0) {
+          ++result_.branches_taken;
+        } else if (!listed) {
+          result_.open_branches.push_back({id, taken});
+        }
+      }
+    }
+  }
+}
+
+Verification Verifier::Run() {
+  CollectSkipLevels();
+  covered_.assign(source_.Module().blocks.Size(), 0);
+  const bool inputs = !sets_.Inputs().empty();
+  const std::uint64_t tries = inputs ? std::uint64_t{options_.runs} * 4 + 64 : 1;
+  for (std::uint64_t i = 0; i < tries && result_.sets_counted < (inputs ? options_.runs : 1); ++i) {
+    const ParameterSet set = sets_.Next();
+    if (!seen_.insert(set).second) continue;
+    if (!RunSet(set)) break;
+    if (inputs && i % 4 == 3 && result_.sets_counted < options_.runs && !AimAtMultiples(set)) break;
+  }
+  CountBranches();
+  if (Done()) return std::move(result_);
+  if (inputs && result_.sets_counted < options_.least_runs) {
+    result_.not_compared = fmt::format("only {} of {} parameter sets moved before an alarm; {} are needed",
+                                       result_.sets_counted, result_.sets_run, options_.least_runs);
+  } else if (!result_.open_branches.empty()) {
+    result_.not_compared =
+        fmt::format("{} of {} branches were never taken", result_.open_branches.size(), result_.branches);
+  }
+  result_.compared = result_.not_compared.empty();
+  return std::move(result_);
+}
+
+}  // namespace
+
+Verification Verify(const Side& source, const Side& target, const std::vector<BoundInput>& inputs,
+                    const VerifyOptions& options, diag::Sink& sink) {
+  return Verifier(source, target, inputs, options, sink).Run();
+}
+
+}  // namespace ncport::prove

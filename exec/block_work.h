@@ -33,6 +33,9 @@ struct BlockWork {
     kOneShotMotion = 1U << 18U,   // a motion word that holds for this block only
     kMotionWord = 1U << 19U,
     kSpeed = 1U << 20U,
+    kRoundModal = 1U << 21U,
+    kSpeedLimit = 1U << 22U,
+    kEdge = 1U << 23U,
   };
 
   std::uint32_t has = 0;
@@ -47,7 +50,7 @@ struct BlockWork {
   ir::ValueMode center_mode[3];
   double via[3];
   ir::ValueMode via_mode[3];
-  double radius, opening, turns, polar_radius, polar_angle, chamfer, contour_angle, start_angle, feed, feed_once, frame_angle, dwell;
+  double radius, opening, turns, polar_radius, polar_angle, chamfer, round_modal, contour_angle, start_angle, feed, feed_once, frame_angle, dwell;
   ir::ValueMode polar_angle_mode;
   ir::ChamferKind chamfer_kind;
   ir::FrameOp frame;

@@ -1,0 +1,194 @@
+// Modal words of motion, feed, and what follows from their change.
+#include <cmath>
+
+#include "exec/evaluator.h"
+#include "exec/kinematics.h"
+
+namespace ncport::exec {
+
+using ir::WordOp;
+
+namespace {
+
+constexpr double kInch = 25.4;
+
+}  // namespace
+
+Kinematics::Kinematics(Session& session, Channel& channel, Emitter& emitter, const Evaluator& names)
+    : session_(session), channel_(channel), emitter_(emitter), names_(names), contour_(session, emitter) {}
+
+std::string_view Kinematics::NameOf(std::uint8_t axis) const { return names_.AxisName(axis); }
+
+bool Kinematics::Unknown(bool unknown, std::string_view what) {
+  if (unknown) session_.Refuse(diag::Code::kUnknownModalState, what, "nothing in the run has set it");
+  return unknown;
+}
+
+double Kinematics::LengthFactor() const {
+  const ir::Units units = channel_.modal.units;
+  return units == ir::Units::kInch || units == ir::Units::kInchGeometry ? kInch : 1;
+}
+
+double Kinematics::FeedFactor() const { return channel_.modal.units == ir::Units::kInch ? kInch : 1; }
+
+void Kinematics::Set(const ir::Word& word, double extension, BlockWork& work) {
+  ir::ModalState& modal = channel_.modal;
+  switch (word.op) {
+    case WordOp::kMotion: {
+      const auto motion = static_cast<ir::Motion>(word.index);
+      if (motion == ir::Motion::kTapFloating || motion == ir::Motion::kProbe) {
+        work.has |= BlockWork::kOneShotMotion;  // holds for its block, then the mode before is back
+        work.one_shot = motion;
+      } else {
+        modal.motion = motion;
+      }
+      work.has |= BlockWork::kMotionWord;
+      break;
+    }
+    case WordOp::kPlane: {
+      const auto plane = static_cast<ir::Plane>(word.index);
+      if (plane != modal.plane) {  // the pole belongs to the plane (sinumerik-8.6)
+        channel_.pole = {};
+        channel_.last_pole = {};
+        channel_.polar_angle_known = false;
+      }
+      modal.plane = plane;
+      ShowComp();
+      break;
+    }
+    case WordOp::kDistance: modal.distance = static_cast<ir::Distance>(word.index); break;
+    case WordOp::kUnits: modal.units = static_cast<ir::Units>(word.index); break;
+    case WordOp::kFeedMode:
+      SetFeedMode(static_cast<ir::FeedMode>(word.index));
+      feed_mode_written_ = true;
+      break;
+    case WordOp::kSpeedMode: SetSpeedMode(word, work); break;
+    case WordOp::kCutterComp: modal.comp = static_cast<ir::CutterComp>(word.index); break;
+    case WordOp::kDiameter: modal.diameter = static_cast<ir::Diameter>(word.index); break;
+    case WordOp::kPathMode: SetPath(static_cast<ir::PathMode>(word.index)); break;
+    case WordOp::kReturnLevel: modal.return_level = static_cast<ir::ReturnLevel>(word.index); break;
+    case WordOp::kWorkOffset: {
+      const bool extended = extension >= 0;
+      SetWorkOffset({true, static_cast<std::uint16_t>(word.extra == Id<void>::kNone ? 0 : word.extra),
+                     static_cast<std::uint16_t>(extended ? extension : 0)});
+      break;
+    }
+    default: break;
+  }
+}
+
+void Kinematics::SetFeedMode(ir::FeedMode mode) {
+  if (mode == channel_.modal.feed_mode) return;
+  channel_.modal.feed_mode = mode;
+  if (session_.machine.feed_type_change_drops_feed) channel_.feed_known = false;
+}
+
+/// Constant surface speed may bring the feed per revolution with it; a word that freezes the speed turns the surface speed of
+/// this moment into 1/min (sinumerik-8.8).
+void Kinematics::SetSpeedMode(const ir::Word& word, const BlockWork& work) {
+  const auto mode = static_cast<ir::SpeedMode>(word.index);
+  const bool was_surface = channel_.modal.speed_mode == ir::SpeedMode::kConstantSurface;
+  channel_.modal.speed_mode = mode;
+  if (mode == ir::SpeedMode::kConstantSurface) {
+    if (!was_surface) channel_.spindles[0].speed_known = false;
+    if (session_.machine.surface_speed_per_revolution && !feed_mode_written_) SetFeedMode(ir::FeedMode::kPerRevolution);
+    return;
+  }
+  Channel::Spindle& spindle = channel_.spindles[0];
+  if (!was_surface || !spindle.speed_known) return;
+  if ((word.flags & ir::Word::kFreezes) == 0 || work.Has(BlockWork::kSpeed)) {
+    spindle.speed_known = false;  // a new speed must come
+    return;
+  }
+  const std::uint8_t transverse = session_.machine.transverse_axis;
+  const bool known = transverse < ir::kMaxAxes && (channel_.base_known & ~channel_.uncertain & AxisBit(transverse)) != 0 &&
+                     channel_.base[transverse] != 0;
+  if (!known) {
+    session_.Refuse(diag::Code::kCannotRun, "the surface speed is frozen where the diameter is not known");
+    return;
+  }
+  constexpr double kPi = 3.14159265358979323846;
+  double speed = 1000 * spindle.speed / (2 * kPi * std::fabs(channel_.base[transverse]));
+  if (spindle.limit_known) speed = std::fmin(speed, spindle.limit);
+  spindle.speed = speed;
+  Event& event = emitter_.Begin(EventKind::kSpindleSpeed);
+  event.value = speed;
+  emitter_.Send(event);
+}
+
+void Kinematics::SetWorkOffset(const ir::WorkOffset& offset) {
+  const ir::WorkOffset old = channel_.modal.work_offset;
+  if (old == offset) return;
+  channel_.modal.work_offset = offset;
+  // Where the axes stand in the new system depends on the difference of two offsets that only the machine knows.
+  if (old.known) channel_.uncertain |= channel_.base_known;
+  Event& event = emitter_.Begin(EventKind::kWorkOffset);
+  event.number = offset.number;
+  event.extension = offset.extension;
+  emitter_.Send(event);
+}
+
+void Kinematics::SetPath(ir::PathMode mode) {
+  if (mode == channel_.modal.path) return;
+  channel_.modal.path = mode;
+  if (mode == ir::PathMode::kUnknown) return;
+  Event& event = emitter_.Begin(EventKind::kPath);
+  event.path = mode;
+  emitter_.Send(event);
+}
+
+/// The side of the compensation in trace coordinates: a mirror in the plane exchanges left and right.
+void Kinematics::ShowComp() {
+  ir::CutterComp shown = channel_.modal.comp;
+  const bool sided = shown == ir::CutterComp::kLeft || shown == ir::CutterComp::kRight;
+  if (sided && !channel_.frame.IsIdentity() && MapPlane(channel_.frame, channel_.modal.plane).mirrored) {
+    shown = shown == ir::CutterComp::kLeft ? ir::CutterComp::kRight : ir::CutterComp::kLeft;
+  }
+  if (shown == channel_.shown_comp) return;
+  channel_.shown_comp = shown;
+  if (shown == ir::CutterComp::kUnknown) return;
+  Event& event = emitter_.Begin(EventKind::kComp);
+  event.comp = shown;
+  emitter_.Send(event);
+}
+
+/// F after all mode words of the block, whatever their order: `F10 G700` is inch per minute.
+void Kinematics::SetFeed(const BlockWork& work) {
+  const ir::Motion motion = channel_.modal.motion;
+  const bool variable_thread = motion == ir::Motion::kThreadIncreasing || motion == ir::Motion::kThreadDecreasing;
+  if (variable_thread && !session_.machine.thread_lead_from_feed) {
+    channel_.thread_change = work.feed * FeedFactor();  // there F is the change of the lead (sinumerik-8.4)
+    return;
+  }
+  if (Unknown(channel_.modal.feed_mode == ir::FeedMode::kUnknown, "the feed mode")) return;
+  if (Unknown(channel_.modal.units == ir::Units::kUnknown, "the unit of lengths")) return;
+  channel_.feed_mode = channel_.modal.feed_mode;
+  channel_.feed = channel_.feed_mode == ir::FeedMode::kInverseTime ? work.feed : work.feed * FeedFactor();
+  channel_.feed_known = true;
+}
+
+void Kinematics::FinishSettings(const BlockWork& work) {
+  feed_mode_written_ = false;
+  if (work.Has(BlockWork::kFeed)) SetFeed(work);
+  if (work.Has(BlockWork::kFrame)) ApplyFrame(work);
+  if (work.Has(BlockWork::kRoundModal)) channel_.modal_rounding = work.round_modal * LengthFactor();
+  if (channel_.modal.comp != channel_.shown_comp) ShowComp();
+}
+
+void Kinematics::Restore(const ir::ModalState& modal, const Frame& frame) {
+  channel_.frame = frame;
+  FrameChanged();
+  const ir::ModalState now = channel_.modal;
+  if (now.feed_mode != modal.feed_mode) channel_.feed_known = channel_.feed_known && channel_.feed_mode == modal.feed_mode;
+  if (modal.work_offset.known) SetWorkOffset(modal.work_offset);
+  if (modal.path != ir::PathMode::kUnknown) SetPath(modal.path);
+  channel_.modal = modal;
+  ShowComp();
+}
+
+void Kinematics::Finish() {
+  if (open_.active) session_.Alarm(ir::AlarmClass::kGeometry, "no motion behind the line with an angle");
+  contour_.Finish();
+}
+
+}  // namespace ncport::exec

@@ -14,7 +14,9 @@ namespace ncport::exec {
 
 class Emitter {
  public:
-  Emitter(Session& session, Channel& channel, EventSink& sink) : session_(session), channel_(channel), sink_(sink) {}
+  Emitter(Session& session, Channel& channel, EventSink& sink) : session_(session), channel_(channel), sink_(sink) {
+    event_.transverse_axis = session.machine.transverse_axis;
+  }
 
   /// A fresh event of this kind from the present block.
   Event& Begin(EventKind kind);

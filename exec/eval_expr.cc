@@ -286,16 +286,4 @@ Value Evaluator::Converted(const Value& value, Type type, std::uint32_t string_l
   return value;
 }
 
-Value Evaluator::ZeroOf(Type type) {
-  switch (type) {
-    case Type::kString: return Value::Text(0);
-    case Type::kInt:
-    case Type::kReal:
-    case Type::kBool:
-    case Type::kChar:
-    case Type::kAxis: return {type, 0, 0};
-    default: return Value::Vacant();
-  }
-}
-
 }  // namespace ncport::exec

@@ -56,12 +56,14 @@ class Evaluator {
 
   /// The place that an expression names; kNone after an error.
   Place PlaceOf(ir::ExprId id);
+  /// The first element of a variable, by its definition.
+  Place VariablePlace(ir::VariableId id);
+  /// The value at a place.
+  Value Load(const Place& place);
   /// Element `offset` behind the one that the place names.
   void Store(const Place& place, const Value& value, std::uint32_t offset = 0);
   /// `value` as a value of `type`; alarms when it does not fit.
   Value Converted(const Value& value, ir::Type type, std::uint32_t string_length = 0);
-  /// Zero, FALSE, "" or vacant.
-  static Value ZeroOf(ir::Type type);
 
   /// A variable as a by-reference argument: the address of its first element and how many follow.
   static constexpr ir::Type kReference = ir::Type::kFrame;  // tag of such a cell; FRAME values do not live in memory
@@ -81,11 +83,8 @@ class Evaluator {
   Value EvalConcat(const ir::Expr& expr);
   Value EvalSystem(const ir::Expr& expr);
   Value ModalGroup(double group) const;
-  Value Load(const Place& place);
-  Value ReadCell(ir::SpaceId space, std::uint32_t number, Memory::Address address);
   bool IsKnownVariable(std::string_view name) const;
 
-  Place VariablePlace(ir::VariableId id);
   Place ElementPlace(const ir::Expr& expr);
   Place CellPlace(ir::SpaceId space, double number);
   Memory::Address AddressOf(ir::VariableId id, const ir::Variable& variable);

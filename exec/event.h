@@ -25,8 +25,10 @@ enum class OffsetKind : std::uint8_t { kNumber, kEdge, kLength, kRadius, kNone }
 /// Where an event comes from: the block, the calls that lead to it, the turns of the loops around it.
 struct CallFrameView {
   const ir::BlockId* call_blocks = nullptr;   // outermost first
-  const std::uint32_t* turns = nullptr;       // how often the block of that level was reached in this call, from 1
   std::uint32_t depth = 0;
+  /// How often call_blocks[i] was reached in its call, from 1; entry [depth]: the block of the event. Null unless
+  /// RunOptions::count_turns.
+  const std::uint32_t* turns = nullptr;
 };
 
 struct Event {
@@ -43,6 +45,7 @@ struct Event {
   bool full_circle = false;        // kArc that ends where it starts
   bool added = false;              // from a block or word that a pass added
   std::uint8_t spindle = 0;        // 0 = master
+  std::uint8_t transverse_axis = 0xFF;  // that diameter words hold for; 0xFF = none
   std::uint16_t known_axes = 0;    // axes programmed so far in this run: written by traces
   std::uint16_t moved_axes = 0;    // axes that this block names
   std::uint32_t turns = 0;         // kArc: additional full turns

@@ -13,10 +13,14 @@ using ir::ExprId;
 constexpr std::uint16_t kDeepestExpression = 1000;
 constexpr std::uint32_t kNowhere = std::numeric_limits<std::uint32_t>::max();
 
+// Frames are laid out when linking. One larger than this is not: the run that needs it stops with a finding.
+constexpr std::uint64_t kMostElements = 1U << 22U;
+constexpr std::uint32_t kOversized = kNowhere / 2;
+
 std::uint32_t Elements(const ir::Variable& variable) {
   std::uint64_t count = 1;
   for (int i = 0; i < variable.dimension_count; ++i) count *= std::max(1U, variable.dimensions[i]);
-  return static_cast<std::uint32_t>(std::min<std::uint64_t>(count, kNowhere / 4));
+  return static_cast<std::uint32_t>(std::min(count, kMostElements + 1));
 }
 
 std::uint32_t SaturatingAdd(std::uint32_t a, std::uint32_t b) { return a > kNowhere / 2 - b ? kNowhere / 2 : a + b; }
@@ -31,39 +35,68 @@ Linked::Linked(const ir::Module& module, const ir::Machine& machine) : module_(&
 
 void Linked::LayOutVariables() {
   const ir::Module& module = *module_;
-  frame_sizes_.assign(module.programs.Size(), 0);
+  frames_.resize(module.programs.Size());
+  oversized_.assign(module.programs.Size(), 0);
+  std::uint8_t fixed_oversized = 0;
   for (const ir::VariableId id : module.variables.Ids()) {
     const ir::Variable& variable = module.variables[id];
     VariableSlot slot;
     slot.count = Elements(variable);
     const bool owned = variable.owner.Valid() && variable.scope != ir::Scope::kChannel && variable.scope != ir::Scope::kGlobal;
     slot.in_frame = owned;
+    std::vector<Value>& cells = owned ? frames_[variable.owner.value] : fixed_values_;
+    slot.offset = static_cast<std::uint32_t>(cells.size());
+    if (cells.size() + slot.count > kMostElements) {
+      (owned ? oversized_[variable.owner.value] : fixed_oversized) = 1;
+      slot.offset = 0;
+      variable_slots_.push_back(slot);
+      continue;
+    }
     // A reference takes one cell, which holds the address of what the caller passed.
-    const std::uint32_t cells = variable.by_reference ? 1 : slot.count;
-    std::uint32_t& size = owned ? frame_sizes_[variable.owner.value] : fixed_cells_;
-    slot.offset = size;
-    size = SaturatingAdd(size, cells);
+    cells.insert(cells.end(), variable.by_reference ? 1 : slot.count, variable.by_reference ? Value::Vacant() : ZeroOf(variable.type));
     variable_slots_.push_back(slot);
   }
+  for_slots_.assign(module.fors.Size(), 0);
+  bool modal_calls = false;
+  for (const ir::ProgramId id : module.programs.Ids()) {
+    for (const BlockId block : module.programs[id].blocks) {
+      for (const ir::WordId word_id : module.blocks[block].words) {
+        const ir::Word& word = module.words[word_id];
+        modal_calls = modal_calls || word.op == ir::WordOp::kModalCall;
+        if (word.op != ir::WordOp::kFor) continue;
+        for_slots_[word.extra] = static_cast<std::uint32_t>(frames_[id.value].size());
+        frames_[id.value].push_back(Value::Vacant());
+      }
+    }
+  }
+  fixed_cells_ = fixed_oversized != 0 ? kOversized : static_cast<std::uint32_t>(fixed_values_.size());
+  for (const ir::SpaceId id : module.spaces.Ids()) {
+    const ir::Space& space = module.spaces[id];
+    if (space.visibility == ir::Visibility::kLevel) level_cells_ = SaturatingAdd(level_cells_, space.last - space.first + 1);
+  }
+  if (modal_calls) {
+    std::size_t largest = 0;
+    for (const std::vector<Value>& frame : frames_) largest = std::max(largest, frame.size());
+    modal_offset_ = fixed_cells_;
+    modal_size_ = SaturatingAdd(level_cells_, static_cast<std::uint32_t>(largest));
+    modal_places_ = machine_->modal_call_levels + 1;
+    for (std::uint32_t i = 0; i < modal_places_; ++i) fixed_cells_ = SaturatingAdd(fixed_cells_, modal_size_);
+  }
   named_cells_ = fixed_cells_;
+  std::uint32_t level_offset = 0;
   for (const ir::SpaceId id : module.spaces.Ids()) {
     const ir::Space& space = module.spaces[id];
     SpaceSlot slot;
     slot.per_level = space.visibility == ir::Visibility::kLevel;
-    std::uint32_t& size = slot.per_level ? level_cells_ : fixed_cells_;
+    std::uint32_t& size = slot.per_level ? level_offset : fixed_cells_;
     slot.offset = size;
     size = SaturatingAdd(size, SaturatingAdd(space.last - space.first, 1));
     space_slots_.push_back(slot);
   }
-  for_slots_.assign(module.fors.Size(), 0);
-  for (const ir::ProgramId id : module.programs.Ids()) {
-    for (const BlockId block : module.programs[id].blocks) {
-      for (const ir::WordId word : module.blocks[block].words) {
-        if (module.words[word].op != ir::WordOp::kFor) continue;
-        for_slots_[module.words[word].extra] = frame_sizes_[id.value]++;
-      }
-    }
-  }
+}
+
+std::uint32_t Linked::FrameSize(ir::ProgramId program) const {
+  return oversized_[program.value] != 0 ? kOversized : static_cast<std::uint32_t>(frames_[program.value].size());
 }
 
 void Linked::ClassifyBlocks() {

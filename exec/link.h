@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "exec/run.h"
@@ -53,11 +54,17 @@ class Linked {
   /// Frame offset of the end value of a counting loop.
   [[nodiscard]] std::uint32_t ForSlot(ir::ForId loop) const { return for_slots_[loop.value]; }
   /// Cells of the frame of a program besides those of its level.
-  [[nodiscard]] std::uint32_t FrameSize(ir::ProgramId program) const { return frame_sizes_[program.value]; }
+  [[nodiscard]] std::uint32_t FrameSize(ir::ProgramId program) const;
   [[nodiscard]] std::uint32_t LevelCells() const { return level_cells_; }
   [[nodiscard]] std::uint32_t FixedCells() const { return fixed_cells_; }
   /// Fixed cells that may hold texts: named variables come before the numbered spaces.
   [[nodiscard]] std::uint32_t NamedCells() const { return named_cells_; }
+  /// A fresh frame of a program, and the fixed named cells: zeros of their types.
+  [[nodiscard]] std::span<const Value> FrameOf(ir::ProgramId program) const { return frames_[program.value]; }
+  [[nodiscard]] std::span<const Value> FixedValues() const { return fixed_values_; }
+  /// Fixed cells for the frame of a modal subprogram, which outlives the call: one place more than may be active at once.
+  [[nodiscard]] std::uint32_t ModalPlaces() const { return modal_places_; }
+  [[nodiscard]] std::uint32_t ModalPlace(std::uint32_t index) const { return modal_offset_ + index * modal_size_; }
   [[nodiscard]] std::uint32_t LargestBlock() const { return largest_block_; }
   [[nodiscard]] ir::ProgramId ProgramOf(ir::BlockId block) const;
 
@@ -78,13 +85,18 @@ class Linked {
   std::vector<VariableSlot> variable_slots_;
   std::vector<SpaceSlot> space_slots_;
   std::vector<std::uint32_t> for_slots_;
-  std::vector<std::uint32_t> frame_sizes_;
+  std::vector<std::vector<Value>> frames_;     // per program
+  std::vector<std::uint8_t> oversized_;        // per program: frame beyond every budget
+  std::vector<Value> fixed_values_;
   std::vector<std::uint32_t> program_of_;      // per block; only when several programs
   std::vector<std::unique_ptr<ir::analysis::LabelTable>> labels_;  // per program
   std::vector<ir::BlockId> static_targets_;
   std::uint32_t level_cells_ = 0;
   std::uint32_t fixed_cells_ = 0;
   std::uint32_t named_cells_ = 0;
+  std::uint32_t modal_places_ = 0;
+  std::uint32_t modal_offset_ = 0;
+  std::uint32_t modal_size_ = 0;
   std::uint32_t largest_block_ = 0;
 };
 

@@ -41,6 +41,7 @@ struct RunOptions {
   bool start_position_known = false;       // `--start`
   std::uint16_t start_axes = 0;
   double start_position[ir::kMaxAxes] = {};  // mm, degrees; transverse axis as the machine's diameter mode programs it
+  bool count_turns = false;                // CallFrameView::turns of events
   bool report_variables = false;           // `--vars`: SET events after the last one
   std::uint64_t max_blocks = 10'000'000;   // executed blocks (`--max-blocks`)
   std::uint64_t max_text_bytes = 64U << 20U;   // memory of strings

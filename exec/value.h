@@ -24,4 +24,17 @@ struct Value {
 };
 static_assert(sizeof(Value) == 16);
 
+/// What a variable of the type holds before anything is written: 0, FALSE, "" or vacant.
+constexpr Value ZeroOf(ir::Type type) {
+  switch (type) {
+    case ir::Type::kString:
+    case ir::Type::kInt:
+    case ir::Type::kReal:
+    case ir::Type::kBool:
+    case ir::Type::kChar:
+    case ir::Type::kAxis: return {type, 0, 0};
+    default: return {};
+  }
+}
+
 }  // namespace ncport::exec

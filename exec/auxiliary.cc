@@ -1,0 +1,169 @@
+#include "exec/auxiliary.h"
+
+#include <cmath>
+#include <string>
+
+#include "ir/ops/arithmetic.h"
+
+namespace ncport::exec {
+
+using ir::WordOp;
+
+namespace {
+
+constexpr double kFoot = 0.3048;
+
+}  // namespace
+
+/// A number as INT addresses take it: rounded, not negative.
+std::uint32_t Auxiliary::Whole(const Value& value) {
+  const double number = ir::ops::Round(evaluator_.ToNumber(value));
+  if (number >= 0 && number <= 4294967295.0) return static_cast<std::uint32_t>(number);
+  session_.Alarm(ir::AlarmClass::kRange, "number of a function is negative or too large");
+  return 0;
+}
+
+Channel::Spindle* Auxiliary::SpindleOf(std::uint8_t index) {
+  if (index < Channel::kSpindles) return &channel_.spindles[index];
+  session_.Refuse(diag::Code::kCannotRun, fmt::format("spindle {}", index));
+  return nullptr;
+}
+
+void Auxiliary::Act(const ir::Word& word, const Value& value, bool edge_follows) {
+  switch (word.op) {
+    case WordOp::kSpeed: return Speed(word, evaluator_.ToNumber(value));
+    case WordOp::kSpeedLimit: {
+      Channel::Spindle* const spindle = SpindleOf(word.index);
+      if (spindle == nullptr) return;
+      spindle->limit_known = true;
+      spindle->limit = evaluator_.ToNumber(value);
+      Event& event = emitter_.Begin(EventKind::kSpindleLimit);
+      event.spindle = word.index;
+      event.value = spindle->limit;
+      return emitter_.Send(event);
+    }
+    case WordOp::kSpindle: {
+      Channel::Spindle* const spindle = SpindleOf(word.index);
+      if (spindle == nullptr) return;
+      spindle->state = static_cast<ir::SpindleState>(word.extra);
+      Event& event = emitter_.Begin(EventKind::kSpindle);
+      event.spindle = word.index;
+      event.spindle_state = spindle->state;
+      return emitter_.Send(event);
+    }
+    case WordOp::kSpindlePosition: {
+      Channel::Spindle* const spindle = SpindleOf(word.index);
+      if (spindle == nullptr) return;
+      spindle->state = ir::SpindleState::kPositioned;
+      spindle->position = evaluator_.ToNumber(value);
+      Event& event = emitter_.Begin(EventKind::kSpindlePosition);
+      event.spindle = word.index;
+      event.value = spindle->position;
+      return emitter_.Send(event);
+    }
+    case WordOp::kTool: return Tool(value, edge_follows);
+    case WordOp::kToolChange: {
+      Event& event = emitter_.Begin(EventKind::kAux);
+      event.number = 6;
+      return emitter_.Send(event);
+    }
+    case WordOp::kEdge: return Edge(Whole(value));
+    case WordOp::kToolOffset: return Offset(OffsetKind::kNumber, Whole(value));
+    case WordOp::kRadiusOffset: return Offset(OffsetKind::kRadius, Whole(value));
+    case WordOp::kLengthOffset:
+      if (!value.IsVacant()) return Offset(OffsetKind::kLength, Whole(value));
+      if (word.index == 0) Offset(OffsetKind::kNone, 0);  // the word that switches it off
+      return;
+    case WordOp::kAux:
+    case WordOp::kAuxH: {
+      Event& event = emitter_.Begin(EventKind::kAux);
+      event.number = Whole(value);
+      event.extension = word.index;
+      if (word.op == WordOp::kAuxH) event.text = "H";
+      return emitter_.Send(event);
+    }
+    case WordOp::kStop: return emitter_.Send(emitter_.Begin(EventKind::kStop));
+    case WordOp::kOptionalStop: return emitter_.Send(emitter_.Begin(EventKind::kOptionalStop));
+    default: return;
+  }
+}
+
+/// 1/min or, under constant surface speed, m/min; from inch sources feet per minute.
+void Auxiliary::Speed(const ir::Word& word, double value) {
+  Channel::Spindle* const spindle = SpindleOf(word.index);
+  if (spindle == nullptr) return;
+  if (channel_.modal.speed_mode == ir::SpeedMode::kUnknown) {
+    return session_.Refuse(diag::Code::kUnknownModalState, "the meaning of the speed", "nothing in the run has set it");
+  }
+  // The surface speed belongs to the master spindle.
+  const bool surface = channel_.modal.speed_mode == ir::SpeedMode::kConstantSurface && word.index == 0;
+  if (surface && channel_.modal.units == ir::Units::kInch) value *= kFoot;
+  spindle->speed_known = true;
+  spindle->speed = value;
+  Event& event = emitter_.Begin(surface ? EventKind::kSpindleSurface : EventKind::kSpindleSpeed);
+  event.spindle = word.index;
+  event.value = value;
+  emitter_.Send(event);
+}
+
+void Auxiliary::Tool(const Value& value, bool edge_follows) {
+  channel_.tool_known = true;
+  channel_.edge_known = false;
+  Event& event = emitter_.Begin(EventKind::kTool);
+  if (value.IsText()) {
+    channel_.tool_name = evaluator_.TextOf(value);
+    event.text = channel_.tool_name;
+  } else {
+    channel_.tool_name.clear();
+    channel_.tool_number = Whole(value);
+    event.number = static_cast<std::uint32_t>(channel_.tool_number);
+  }
+  emitter_.Send(event);
+  if (session_.machine.tool_activates_edge && !edge_follows) Edge(1);
+}
+
+void Auxiliary::Edge(double number) {
+  channel_.edge_known = true;
+  channel_.edge = number;
+  Offset(OffsetKind::kEdge, number);
+}
+
+/// Register 0 is no register: the offset is cancelled.
+void Auxiliary::Offset(OffsetKind kind, double number) {
+  Event& event = emitter_.Begin(EventKind::kOffset);
+  event.offset = number == 0 ? OffsetKind::kNone : kind;
+  event.number = static_cast<std::uint32_t>(number);
+  emitter_.Send(event);
+}
+
+void Auxiliary::Message(const ir::Word& word, const Value& value) {
+  if (word.op == WordOp::kAlarm) return Alarm(word, value);
+  TextBuffer text;
+  evaluator_.AppendText(text, value);
+  Event& event = emitter_.Begin(word.op == WordOp::kPrint ? EventKind::kPrint : EventKind::kMessage);
+  event.text = text.View();
+  emitter_.Send(event);
+}
+
+/// Alarms of the program. Those that only show are messages; their text, or without one their number (contracts 5).
+void Auxiliary::Alarm(const ir::Word& word, const Value& value) {
+  const std::uint32_t number = Whole(value);
+  TextBuffer text;
+  if (word.extra != ir::ExprId::kNone) evaluator_.AppendText(text, evaluator_.Eval(word.Extra<ir::ExprId>()));
+  if (session_.halted) return;
+  bool shows = word.index == static_cast<std::uint8_t>(ir::AlarmKind::kShows);
+  if (word.index == static_cast<std::uint8_t>(ir::AlarmKind::kByNumber)) {
+    for (const ir::AlarmRange& range : session_.machine.shown_alarms) shows = shows || (number >= range.first && number <= range.last);
+  }
+  if (!shows) {
+    session_.Alarm(ir::AlarmClass::kUser, text.View());
+    session_.alarm_code = std::to_string(number);
+    return;
+  }
+  if (text.Empty()) text.Append(std::to_string(number));
+  Event& event = emitter_.Begin(EventKind::kMessage);
+  event.text = text.View();
+  emitter_.Send(event);
+}
+
+}  // namespace ncport::exec

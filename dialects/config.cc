@@ -117,7 +117,8 @@ class Reader {
 
   void ReadMapping(const std::string& path, const TomlMember& member, std::vector<WordMapping>& mappings) {
     const std::string source = SingleBlanks(member.key);
-    if (source.empty()) return Refuse(path, member.value, "behind words of the source: an empty key maps nothing; a key");
+    if (source.empty())
+      return Refuse(path, member.value, "behind words of the source: an empty key maps nothing; a key");
     if (member.value.kind != TomlKind::kText || member.value.text.empty()) {
       return Refuse(path, member.value, "a text, words of the target,");
     }
@@ -166,9 +167,11 @@ class Reader {
 
   /// `[least, most]`.
   bool ReadPair(const std::string& path, const TomlNode& value, double& least, double& most) {
-    const auto number = [](const TomlNode& item) { return item.kind == TomlKind::kInteger || item.kind == TomlKind::kNumber; };
-    if (value.kind != TomlKind::kList || value.items.size() != 2 || !number(value.items[0]) || !number(value.items[1]) ||
-        !(value.items[0].number <= value.items[1].number)) {
+    const auto number = [](const TomlNode& item) {
+      return item.kind == TomlKind::kInteger || item.kind == TomlKind::kNumber;
+    };
+    if (value.kind != TomlKind::kList || value.items.size() != 2 || !number(value.items[0]) ||
+        !number(value.items[1]) || !(value.items[0].number <= value.items[1].number)) {
       Refuse(path, value, "[least, most]");
       return false;
     }
@@ -231,7 +234,9 @@ class Reader {
     if (value.kind != TomlKind::kList) return Refuse(path, value, "a list of codes [\"NC2007\"]");
     for (const TomlNode& item : value.items) {
       const bool known = item.kind == TomlKind::kText && item.text.size() >= 3 &&
-                         std::ranges::any_of(diag::AllInfos(), [&](const diag::Info& info) { return info.number.starts_with(item.text); });
+                         std::ranges::any_of(diag::AllInfos(), [&](const diag::Info& info) {
+                           return info.number.starts_with(item.text);
+                         });
       if (!known) return Refuse(path, item, "a code such as \"NC2007\" that exists");
       codes.push_back(item.text);
     }
@@ -268,7 +273,9 @@ const WordMapping* Config::FindTool(std::string_view words) const {
 
 const WordMapping* Config::FindOffset(std::string_view word) const { return FindWords(offsets, SingleBlanks(word)); }
 
-const WordMapping* Config::FindVariable(std::string_view name) const { return FindWords(variables, SingleBlanks(name)); }
+const WordMapping* Config::FindVariable(std::string_view name) const {
+  return FindWords(variables, SingleBlanks(name));
+}
 
 const ProgramMapping* Config::FindProgram(std::string_view name) const {
   for (const ProgramMapping& mapping : programs) {

@@ -33,9 +33,10 @@ struct ValueRange {
   double most = 0;
   SourceRange at;
 };
-/// Largest value of a word ("spindle" 1/min, "feed" mm/min), or envelope of an axis ("x": -most .. most, or [least, most]).
+/// Largest value of a word ("spindle" 1/min, "feed" mm/min), or envelope of an axis ("x": -most .. most, or [least,
+/// most]).
 struct Limit {
-  std::string name;                  // lower case
+  std::string name;  // lower case
   double least = 0;
   double most = 0;
   SourceRange at;
@@ -43,8 +44,8 @@ struct Limit {
 enum class FailOn : std::uint8_t { kError, kWarning, kNever };
 
 struct Config {
-  FileId file;                       // invalid: there is none
-  std::string folder;                // of the file; relative paths in it start there
+  FileId file;         // invalid: there is none
+  std::string folder;  // of the file; relative paths in it start there
   std::optional<std::string> from, to;
   std::vector<WordMapping> tools;
   std::vector<WordMapping> offsets;
@@ -53,7 +54,7 @@ struct Config {
   std::vector<MCodeRule> mcodes;
   std::vector<ValueRange> ranges;
   std::vector<Limit> limits;
-  ir::ModalState entry;              // groups that the file leaves open are unknown
+  ir::ModalState entry;  // groups that the file leaves open are unknown
   std::optional<FailOn> fail_on;
   std::vector<std::string> select, ignore;
 

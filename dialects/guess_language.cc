@@ -43,12 +43,14 @@ std::string CodeOf(std::string_view line) {
   return code;
 }
 
-constexpr std::string_view kSinumerikWords[] = {
-    "GOTOF", "GOTOB", "GOTOC", "GOTOS",  "PROC",   "EXTERN", "MCALL",   "DIAMON", "DIAMOF",  "DIAM90", "STOPRE", "SETAL",
-    "ATRANS", "AROT", "ASCALE", "AMIRROR", "SUPA", "ENDLOOP", "ENDFOR", "LIMS",   "WORKPIECE", "CIP",  "REPEATB"};
+constexpr std::string_view kSinumerikWords[] = {"GOTOF",  "GOTOB",  "GOTOC",     "GOTOS",   "PROC",   "EXTERN",
+                                                "MCALL",  "DIAMON", "DIAMOF",    "DIAM90",  "STOPRE", "SETAL",
+                                                "ATRANS", "AROT",   "ASCALE",    "AMIRROR", "SUPA",   "ENDLOOP",
+                                                "ENDFOR", "LIMS",   "WORKPIECE", "CIP",     "REPEATB"};
 constexpr std::string_view kNumWords[] = {"ENDI", "ENDW", "ENDF", "ENDV"};
-constexpr std::string_view kLinuxCncWords[] = {"SUB", "ENDSUB", "CALL", "IF", "ELSEIF", "ELSE", "ENDIF", "WHILE", "ENDWHILE",
-                                               "DO",  "REPEAT", "ENDREPEAT", "RETURN", "BREAK", "CONTINUE"};
+constexpr std::string_view kLinuxCncWords[] = {"SUB",    "ENDSUB",    "CALL",   "IF",       "ELSEIF",
+                                               "ELSE",   "ENDIF",     "WHILE",  "ENDWHILE", "DO",
+                                               "REPEAT", "ENDREPEAT", "RETURN", "BREAK",    "CONTINUE"};
 constexpr std::string_view kTypes[] = {"INT", "REAL", "BOOL", "CHAR", "STRING", "AXIS", "FRAME"};
 constexpr std::string_view kTurningCycles[] = {"CYCLE93", "CYCLE94", "CYCLE95", "CYCLE96", "CYCLE97", "CYCLE98"};
 
@@ -133,7 +135,8 @@ class Scanner {
     const char c = At(i);
     if (c == '#') return Hash(i);
     if (c == '$' && IsLetter(At(i + 1)) && i > 0) return Dollar(i);
-    if (c == '$' && IsLetter(At(i + 1)) && At(i + 2) != ' ' && code_.find('_', i) != std::string::npos) return Dollar(i);
+    if (c == '$' && IsLetter(At(i + 1)) && At(i + 2) != ' ' && code_.find('_', i) != std::string::npos)
+      return Dollar(i);
     if (c == '\'' && IsLetter(At(i + 1)) && !IsDigit(At(i + 2))) {
       if (At(i + 1) != 'H' && At(i + 1) != 'B') Sign(Language::kNum, "a variable name behind '");
       return i + 2;
@@ -183,7 +186,8 @@ class Scanner {
       if (In(kTypes, std::string_view(code_).substr(type, type_end - type))) Sign(Language::kSinumerik, "DEF");
     }
     if ((name == "IF" || name == "WHILE" || name == "WH") && after == '[') Sign(Language::kFanuc, name);
-    if (name == "GOTO" && (IsDigit(after) || after == '#' || after == '[')) Sign(Language::kFanuc, "GOTO with a number");
+    if (name == "GOTO" && (IsDigit(after) || after == '#' || after == '['))
+      Sign(Language::kFanuc, "GOTO with a number");
     if (name == "DPRNT" || name == "POPEN" || name == "PCLOS") Sign(Language::kFanuc, name);
     // A keyword may be glued to what follows: look at the rest letter by letter only where digits end it.
     return IsDigit(At(letters)) ? letters : end;
@@ -212,7 +216,8 @@ class Scanner {
       Sign(Language::kFanuc, word);
     }
     if (word == "G96") {
-      for (const Language language : {Language::kFanuc, Language::kNum, Language::kSinumerik, Language::kLinuxCnc}) Lathe(language, word);
+      for (const Language language : {Language::kFanuc, Language::kNum, Language::kSinumerik, Language::kLinuxCnc})
+        Lathe(language, word);
     }
     if (word == "G7" && At(end) != '.') Lathe(Language::kLinuxCnc, word);
     if (letter == 'T' && end - value == 4 && !HasCode("M6") && !HasCode("M06")) Lathe(Language::kFanuc, word);
@@ -237,7 +242,8 @@ std::string LowerEnding(std::string_view file_name) {
   const std::size_t point = file_name.rfind('.');
   if (point == std::string_view::npos || point == 0) return {};
   std::string ending(file_name.substr(point));
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
   return ending;
 }
 
@@ -290,14 +296,16 @@ LanguageGuess GuessLanguage(std::string_view file_name, std::string_view text) {
   return guess;
 }
 
-Result<Language> NeedLanguage(const LanguageGuess& guess, std::string_view file_name, const SourceRange& at, diag::Sink& sink) {
+Result<Language> NeedLanguage(const LanguageGuess& guess, std::string_view file_name, const SourceRange& at,
+                              diag::Sink& sink) {
   if (guess.Certain()) return guess.languages.front();
   std::string signs;
   for (std::size_t i = 0; i < guess.languages.size(); ++i) {
     signs += fmt::format("{}{} ({})", i == 0 ? "" : ", ", NameOf(guess.languages[i]), guess.reasons[i]);
   }
   if (signs.empty()) signs = "neither its ending nor a word in it speaks for one";
-  sink.Report(diag::Code::kUnclearLanguage, at, file_name, signs).help = "name the profile with --from, or in ncport.toml";
+  sink.Report(diag::Code::kUnclearLanguage, at, file_name, signs).help =
+      "name the profile with --from, or in ncport.toml";
   return Failure{};
 }
 

@@ -43,11 +43,18 @@ ir::Machine MachineFor(const Profile& profile) {
   machine.call_depth = static_cast<std::uint32_t>(profile.nesting.call.Or(machine.call_depth));
   machine.passes_max = static_cast<std::uint32_t>(profile.block.max_passes.Or(machine.passes_max));
   switch (profile.language) {
-    case Language::kSinumerik: sinumerik::FillMachine(profile, machine); break;
-    case Language::kFanuc: fanuc::FillMachine(profile, machine); break;
-    case Language::kNum: num::FillMachine(profile, machine); break;
+    case Language::kSinumerik:
+      sinumerik::FillMachine(profile, machine);
+      break;
+    case Language::kFanuc:
+      fanuc::FillMachine(profile, machine);
+      break;
+    case Language::kNum:
+      num::FillMachine(profile, machine);
+      break;
     case Language::kLinuxCnc:  // no card yet: what ir::Machine begins with
-    case Language::kIso: break;
+    case Language::kIso:
+      break;
   }
   return machine;
 }

@@ -6,8 +6,9 @@
 
 namespace ncport::dialects {
 
-/// Start state, arithmetic, limits, alarms and computed codes of the profile's language and machine. Open settings take the
-/// value that makes a run stop rather than guess (unknown modal state) or the control's delivered value as the card names it.
+/// Start state, arithmetic, limits, alarms and computed codes of the profile's language and machine. Open settings take
+/// the value that makes a run stop rather than guess (unknown modal state) or the control's delivered value as the card
+/// names it.
 ir::Machine MachineFor(const Profile& profile);
 
 }  // namespace ncport::dialects

@@ -12,7 +12,8 @@ namespace {
 bool TenthsOf(std::string_view text, std::uint32_t& tenths) {
   tenths = 0;
   std::size_t i = 1;
-  for (; i < text.size() && text[i] >= '0' && text[i] <= '9'; ++i) tenths = tenths * 10 + static_cast<std::uint32_t>(text[i] - '0');
+  for (; i < text.size() && text[i] >= '0' && text[i] <= '9'; ++i)
+    tenths = tenths * 10 + static_cast<std::uint32_t>(text[i] - '0');
   if (i == 1) return false;
   tenths *= 10;
   if (i == text.size()) return true;
@@ -21,9 +22,7 @@ bool TenthsOf(std::string_view text, std::uint32_t& tenths) {
   return true;
 }
 
-void SortByTenths(std::vector<ir::CodeMeaning>& codes) {
-  std::ranges::sort(codes, {}, &ir::CodeMeaning::tenths);
-}
+void SortByTenths(std::vector<ir::CodeMeaning>& codes) { std::ranges::sort(codes, {}, &ir::CodeMeaning::tenths); }
 
 }  // namespace
 

@@ -17,8 +17,8 @@ struct AlarmRow {
 };
 void SetAlarms(std::span<const AlarmRow> rows, ir::Machine& machine);
 
-/// Makes the G and M rows of the table known to programs that compute a code (`G#30`, `M=QU(5)`). Rows that need words of
-/// their block to mean something (G4) stay out: they cannot be known by number alone.
+/// Makes the G and M rows of the table known to programs that compute a code (`G#30`, `M=QU(5)`). Rows that need words
+/// of their block to mean something (G4) stay out: they cannot be known by number alone.
 void SetComputedCodes(const CodeTable& table, ir::Machine& machine);
 
 /// Code of the modal group `group` for a mode of the enum of `op`.

@@ -9,10 +9,10 @@ namespace {
 
 using ir::ModalState;
 
-constexpr std::string_view kMotion[] = {"unknown", "none",   "rapid",             "linear",           "arc-cw",
-                                        "arc-ccw", "arc-via", "arc-tangent",       "thread",           "thread-increasing",
-                                        "thread-decreasing", "tap-in",            "tap-out",          "tap-floating",
-                                        "probe"};
+constexpr std::string_view kMotion[] = {
+    "unknown",           "none",    "rapid",       "linear",       "arc-cw",
+    "arc-ccw",           "arc-via", "arc-tangent", "thread",       "thread-increasing",
+    "thread-decreasing", "tap-in",  "tap-out",     "tap-floating", "probe"};
 constexpr std::string_view kPlane[] = {"unknown", "xy", "zx", "yz"};
 constexpr std::string_view kDistance[] = {"unknown", "absolute", "incremental"};
 constexpr std::string_view kUnits[] = {"unknown", "mm", "inch", "mm-geometry", "inch-geometry"};

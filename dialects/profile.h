@@ -24,7 +24,8 @@ template <class T>
 class Setting {
  public:
   Setting() = default;
-  Setting(T value) : value_(std::move(value)) {}  // NOLINT(google-explicit-constructor): `profile.point = PointRule::kIncrement`
+  Setting(T value)
+      : value_(std::move(value)) {}  // NOLINT(google-explicit-constructor): `profile.point = PointRule::kIncrement`
 
   [[nodiscard]] bool Known() const { return value_.has_value(); }
   /// The value; using an open setting is a bug (see Need).
@@ -74,13 +75,13 @@ struct NumberRange {
 
 /// One numbered variable space; spaces of one name with other ranges stand beside each other (#1-#33, #100-#199).
 struct VariableSpace {
-  std::string name;                     // "R", "#", "L"
+  std::string name;  // "R", "#", "L"
   NumberRange range;
-  ir::Type type = ir::Type::kReal;      // kNumber: may be vacant
+  ir::Type type = ir::Type::kReal;  // kNumber: may be vacant
   ir::Lifetime lifetime = ir::Lifetime::kKept;
   ir::Visibility visibility = ir::Visibility::kAll;
   ir::StartValue start = ir::StartValue::kUnknown;
-  std::vector<NumberRange> reserved;    // cells that translated programs must not use
+  std::vector<NumberRange> reserved;  // cells that translated programs must not use
 };
 
 /// Cells of one space where a translator may put temporaries: "#100-#149".
@@ -91,15 +92,15 @@ struct ScratchRange {
 
 /// Rules for names. Lengths in characters.
 struct NameRules {
-  Setting<std::int64_t> max_length;         // of variables; 0 = no named variables
+  Setting<std::int64_t> max_length;  // of variables; 0 = no named variables
   Setting<NameStart> first;
-  Setting<std::int64_t> labels;             // longest label; 0 = no label names
-  Setting<LabelForm> label_form;            // what a jump may name
-  Setting<std::int64_t> programs;           // longest program name; digits where programs are numbers
+  Setting<std::int64_t> labels;    // longest label; 0 = no label names
+  Setting<LabelForm> label_form;   // what a jump may name
+  Setting<std::int64_t> programs;  // longest program name; digits where programs are numbers
   Setting<ProgramNaming> program_form;
-  Setting<NumberRange> program_numbers;     // numbers of user programs
-  Setting<NumberRange> block_numbers;       // N words
-  Setting<NumberRange> macro_numbers;       // numbers that a translator gives to programs it makes
+  Setting<NumberRange> program_numbers;  // numbers of user programs
+  Setting<NumberRange> block_numbers;    // N words
+  Setting<NumberRange> macro_numbers;    // numbers that a translator gives to programs it makes
   Setting<bool> ignore_case;
 };
 
@@ -121,92 +122,92 @@ struct BlockLimits {
 /// Words of one spindle; empty: it has none.
 struct SpindleWords {
   Setting<std::string> cw, ccw, stop;
-  Setting<std::string> css;      // template {speed}: constant surface speed, m/min or ft/min
-  Setting<std::string> rpm;      // template {speed}: 1/min
-  Setting<std::string> limit;    // template {speed}: largest 1/min under constant surface speed
-  Setting<std::string> r_word;   // added to limit, css, rpm ("R1"); empty: none
+  Setting<std::string> css;     // template {speed}: constant surface speed, m/min or ft/min
+  Setting<std::string> rpm;     // template {speed}: 1/min
+  Setting<std::string> limit;   // template {speed}: largest 1/min under constant surface speed
+  Setting<std::string> r_word;  // added to limit, css, rpm ("R1"); empty: none
 };
 
 /// Word templates of the writer. Holes: see TemplateHoles in profile_keys.cc ({number}, {speed}, {seconds} ...).
 struct WriterWords {
   Setting<std::string> feed_per_minute, feed_per_revolution, feed_inverse_time;
-  Setting<std::string> absolute, incremental;            // "G90", "G91"; empty: no such word
-  Setting<std::string> incremental_axes;                 // letters of the increments of X, Y, Z, C: "UVWH"; empty: none
+  Setting<std::string> absolute, incremental;  // "G90", "G91"; empty: no such word
+  Setting<std::string> incremental_axes;       // letters of the increments of X, Y, Z, C: "UVWH"; empty: none
   Setting<std::string> work_offset, work_offset_extended, work_offset_none;
   Setting<std::string> length_offset, length_offset_off, radius_offset, edge;
-  Setting<std::string> tool;                             // tool call: "T{tool} M6", "T{tool:02}{offset:02}"
+  Setting<std::string> tool;  // tool call: "T{tool} M6", "T{tool:02}{offset:02}"
   Setting<std::string> mm, inch;
   Setting<std::string> diameter_on, diameter_off;
   Setting<std::string> dwell, dwell_revolutions;
   Setting<std::string> thread;
-  Setting<std::string> end;                              // end of the main program
-  Setting<std::string> sub_end;                          // end of a called program
-  Setting<std::vector<std::string>> home;                // blocks that leave the work before a tool change
-  Setting<std::vector<std::string>> safe_position;       // blocks of a position where tools may be changed
-  Setting<std::vector<std::string>> header, footer;      // blocks that frame a main program
+  Setting<std::string> end;                          // end of the main program
+  Setting<std::string> sub_end;                      // end of a called program
+  Setting<std::vector<std::string>> home;            // blocks that leave the work before a tool change
+  Setting<std::vector<std::string>> safe_position;   // blocks of a position where tools may be changed
+  Setting<std::vector<std::string>> header, footer;  // blocks that frame a main program
 };
 
 struct MCodeRule {
-  std::string source;   // "M41"
-  std::string target;   // words of the target; "drop": left out and listed
+  std::string source;  // "M41"
+  std::string target;  // words of the target; "drop": left out and listed
 };
 
 /// Settings of the Fanuc family (fanuc card, "Parameters"; mazak-lathe card, 10.5).
 struct FanucSettings {
   enum class Variant : std::uint8_t { kFanuc, kMazak, kHaas };
-  enum class Dwell : std::uint8_t { kTime, kRevolutions };           // under feed per revolution
-  enum class CornerWords : std::uint8_t { kComma, kPlain };          // `,C ,R ,A` or `C R A`
-  enum class AtanRange : std::uint8_t { kPositive, kSigned };        // 0..360, -180..180
-  enum class Logic : std::uint8_t { kBits, kConditions };            // AND OR XOR between conditions
-  enum class Calls : std::uint8_t { kPacked, kRepeatWord };          // M98 P51234, M98 P1234 L5
-  enum class LengthWord : std::uint8_t { kNone, kG43H, kG43P1 };     // tool length of a multi-tasking machine
+  enum class Dwell : std::uint8_t { kTime, kRevolutions };        // under feed per revolution
+  enum class CornerWords : std::uint8_t { kComma, kPlain };       // `,C ,R ,A` or `C R A`
+  enum class AtanRange : std::uint8_t { kPositive, kSigned };     // 0..360, -180..180
+  enum class Logic : std::uint8_t { kBits, kConditions };         // AND OR XOR between conditions
+  enum class Calls : std::uint8_t { kPacked, kRepeatWord };       // M98 P51234, M98 P1234 L5
+  enum class LengthWord : std::uint8_t { kNone, kG43H, kG43P1 };  // tool length of a multi-tasking machine
   enum class RetractOrder : std::uint8_t { kXThenZ, kZThenX };
-  enum class WorkZero : std::uint8_t { kOffset, kMazatrol };         // G54, G53.5
-  enum class FeedSpindle : std::uint8_t { kTurning, kMilling };      // that feed per revolution refers to
+  enum class WorkZero : std::uint8_t { kOffset, kMazatrol };     // G54, G53.5
+  enum class FeedSpindle : std::uint8_t { kTurning, kMilling };  // that feed per revolution refers to
 
   Setting<Variant> variant;
-  Setting<std::string> control;               // model as the maker names it, for the sheet
-  Setting<Dwell> dwell;                       // 3405#1 DWL, Mazak F92.2
-  Setting<CornerWords> corner_words;          // 3405#4 CCR
-  Setting<bool> supplementary_angle;          // 3405#5 DDP
-  Setting<double> circle_tolerance;           // 3410, mm
-  Setting<bool> feed_along_helix;             // 1403#5 HTG
-  Setting<bool> series15_format;              // 0001#1 FCV
-  Setting<double> g73_back_off;               // 5114, mm
-  Setting<double> g83_clearance;              // 5115, mm
-  Setting<double> thread_run_out;             // 5130, in leads
-  Setting<bool> rotation_r_by_distance;       // 5400#0 RIN
-  Setting<double> rotation_default_angle;     // 5410, degrees
-  Setting<bool> offset_memory_15;             // 6000#3 V15
-  Setting<bool> print_leading_blanks;         // 6001#1 PRT = 0
-  Setting<bool> tool_calls_macro;             // 6001#5 TCS
-  Setting<bool> reset_clears_common;          // 6001#6 CCV = 0, Mazak F87.7
-  Setting<bool> reset_clears_local;           // 6001#7 CLV = 1, Mazak F87.6
-  Setting<AtanRange> atan_range;              // 6004#0 NAT
-  Setting<bool> call_from_block;              // 6005#0 SQC: M98 P Q
-  Setting<Logic> logic;                       // 6006#0 MLG
-  Setting<bool> arguments_to_real;            // 6007#4 CVA
-  Setting<bool> alarm_number_as_written;      // 6008#1 MCA
-  Setting<bool> arguments_always_first_list;  // 6008#7 IJK
-  Setting<Calls> calls;                       // form of repeats that the writer uses
-  Setting<bool> structured_if;                // IF .. THEN .. ELSE .. ENDIF over blocks
-  Setting<bool> truth_values;                 // Haas: every expression is a condition
-  Setting<bool> expression_without_brackets;  // Mazak: X#1+10
-  Setting<bool> local_call;                   // Haas: M97
-  Setting<std::int64_t> do_numbers;           // largest number behind DO
-  Setting<std::int64_t> digits;               // most digits of a number in a word
+  Setting<std::string> control;                         // model as the maker names it, for the sheet
+  Setting<Dwell> dwell;                                 // 3405#1 DWL, Mazak F92.2
+  Setting<CornerWords> corner_words;                    // 3405#4 CCR
+  Setting<bool> supplementary_angle;                    // 3405#5 DDP
+  Setting<double> circle_tolerance;                     // 3410, mm
+  Setting<bool> feed_along_helix;                       // 1403#5 HTG
+  Setting<bool> series15_format;                        // 0001#1 FCV
+  Setting<double> g73_back_off;                         // 5114, mm
+  Setting<double> g83_clearance;                        // 5115, mm
+  Setting<double> thread_run_out;                       // 5130, in leads
+  Setting<bool> rotation_r_by_distance;                 // 5400#0 RIN
+  Setting<double> rotation_default_angle;               // 5410, degrees
+  Setting<bool> offset_memory_15;                       // 6000#3 V15
+  Setting<bool> print_leading_blanks;                   // 6001#1 PRT = 0
+  Setting<bool> tool_calls_macro;                       // 6001#5 TCS
+  Setting<bool> reset_clears_common;                    // 6001#6 CCV = 0, Mazak F87.7
+  Setting<bool> reset_clears_local;                     // 6001#7 CLV = 1, Mazak F87.6
+  Setting<AtanRange> atan_range;                        // 6004#0 NAT
+  Setting<bool> call_from_block;                        // 6005#0 SQC: M98 P Q
+  Setting<Logic> logic;                                 // 6006#0 MLG
+  Setting<bool> arguments_to_real;                      // 6007#4 CVA
+  Setting<bool> alarm_number_as_written;                // 6008#1 MCA
+  Setting<bool> arguments_always_first_list;            // 6008#7 IJK
+  Setting<Calls> calls;                                 // form of repeats that the writer uses
+  Setting<bool> structured_if;                          // IF .. THEN .. ELSE .. ENDIF over blocks
+  Setting<bool> truth_values;                           // Haas: every expression is a condition
+  Setting<bool> expression_without_brackets;            // Mazak: X#1+10
+  Setting<bool> local_call;                             // Haas: M97
+  Setting<std::int64_t> do_numbers;                     // largest number behind DO
+  Setting<std::int64_t> digits;                         // most digits of a number in a word
   Setting<std::vector<std::string>> missing_functions;  // functions that the control lacks
-  Setting<NumberRange> alarms;                // values of #3000 that a translator uses
+  Setting<NumberRange> alarms;                          // values of #3000 that a translator uses
   // Mazak turning machines.
-  Setting<LengthWord> length_word;            // key "ix-offset"
+  Setting<LengthWord> length_word;  // key "ix-offset"
   Setting<RetractOrder> retract_order;
-  Setting<WorkZero> work_zero;                // key "wcs"
+  Setting<WorkZero> work_zero;  // key "wcs"
   Setting<FeedSpindle> feed_spindle;
-  Setting<std::string> leave_mazatrol;        // block that leaves the MAZATROL coordinate system; empty: none
-  Setting<std::string> b_position;            // block that turns B to the turning position
-  Setting<std::string> safe_z;                // safe Z in machine coordinates, mm
-  Setting<bool> c_axis;                       // M202 before turning
-  Setting<bool> o_word;                       // programs begin with an O word
+  Setting<std::string> leave_mazatrol;  // block that leaves the MAZATROL coordinate system; empty: none
+  Setting<std::string> b_position;      // block that turns B to the turning position
+  Setting<std::string> safe_z;          // safe Z in machine coordinates, mm
+  Setting<bool> c_axis;                 // M202 before turning
+  Setting<bool> o_word;                 // programs begin with an O word
 };
 
 /// Settings of SINUMERIK controls (sinumerik card; machine data MD, setting data SD).
@@ -242,13 +243,13 @@ struct SinumerikSettings {
 
 /// Settings of NUM controls (num card).
 struct NumSettings {
-  Setting<double> internal_linear;            // mm
-  Setting<double> internal_rotary;            // degrees
-  Setting<bool> leading_zero_counts;          // NUM-10: the 0 of 0.333 is one of the eight digits
-  Setting<std::int64_t> guard_digits;         // NUM-10: digits to which a result is rounded before it is cut
-  Setting<double> circle_tolerance;           // NUM-62, mm
-  Setting<bool> structured;                   // IF, WHILE, FOR, REPEAT, VAR are fitted
-  Setting<bool> end_in_called_ends_all;       // NUM-50: M02 in a subprogram
+  Setting<double> internal_linear;              // mm
+  Setting<double> internal_rotary;              // degrees
+  Setting<bool> leading_zero_counts;            // NUM-10: the 0 of 0.333 is one of the eight digits
+  Setting<std::int64_t> guard_digits;           // NUM-10: digits to which a result is rounded before it is cut
+  Setting<double> circle_tolerance;             // NUM-62, mm
+  Setting<bool> structured;                     // IF, WHILE, FOR, REPEAT, VAR are fitted
+  Setting<bool> end_in_called_ends_all;         // NUM-50: M02 in a subprogram
   Setting<bool> incremental_center_from_start;  // NUM-61: I J K in G91
 };
 
@@ -256,34 +257,34 @@ struct NumSettings {
 struct IsoSettings {
   enum class Arcs : std::uint8_t { kCenter, kRadius };
   Setting<Arcs> arcs;
-  Setting<std::int64_t> block_number_step;    // 0 = no N words
+  Setting<std::int64_t> block_number_step;  // 0 = no N words
 };
 
 /// See the page docs/profiles.md for every key.
 struct Profile {
-  std::string name;      // of a built-in profile, else the path as given
+  std::string name;  // of a built-in profile, else the path as given
   Language language = Language::kIso;
   MachineKind machine = MachineKind::kMill;
   Setting<Series> series;
-  Setting<MachineClass> machine_class;        // key "class"
-  std::vector<std::string> axes;              // upper case, in the machine's order: first = number 1 of position variables
+  Setting<MachineClass> machine_class;  // key "class"
+  std::vector<std::string> axes;        // upper case, in the machine's order: first = number 1 of position variables
   Setting<DiameterRule> diameter;
-  Setting<LengthUnit> units;                  // of numbers at program start and of output
-  Setting<double> increment;                  // least input increment, mm or degrees
+  Setting<LengthUnit> units;  // of numbers at program start and of output
+  Setting<double> increment;  // least input increment, mm or degrees
   Setting<PointRule> point;
-  Setting<std::int64_t> decimals;             // of computed lengths in output
+  Setting<std::int64_t> decimals;  // of computed lengths in output
   Setting<ir::WordError> word_error;
   Setting<ir::NumericModel> numeric_model;
-  ir::ModalState start;                       // groups that the file leaves open are unknown
-  Setting<ir::Rapid> rapid;                   // always known: `unknown` is one of its values
-  Setting<std::int64_t> skip;                 // level of `/` without a number, 0..9
+  ir::ModalState start;        // groups that the file leaves open are unknown
+  Setting<ir::Rapid> rapid;    // always known: `unknown` is one of its values
+  Setting<std::int64_t> skip;  // level of `/` without a number, 0..9
   std::vector<VariableSpace> variables;
   NameRules names;
   NestingLimits nesting;
   BlockLimits block;
-  SpindleWords spindle;                       // of the work on a lathe, of the tool on a mill
-  SpindleWords second_spindle;                // key "spindle.second"
-  SpindleWords live_spindle;                  // key "spindle.live": driven tools of a lathe
+  SpindleWords spindle;         // of the work on a lathe, of the tool on a mill
+  SpindleWords second_spindle;  // key "spindle.second"
+  SpindleWords live_spindle;    // key "spindle.live": driven tools of a lathe
   WriterWords words;
   std::vector<MCodeRule> mcodes;
   std::vector<ScratchRange> scratch;
@@ -295,8 +296,8 @@ struct Profile {
   [[nodiscard]] bool IsLathe() const { return machine == MachineKind::kLathe; }
 };
 
-/// A built-in profile by its name, or the file at a path (it has a `/` or ends in `.toml`). The text of a file is added to
-/// `files`, so that findings can show their place. Fails after errors.
+/// A built-in profile by its name, or the file at a path (it has a `/` or ends in `.toml`). The text of a file is added
+/// to `files`, so that findings can show their place. Fails after errors.
 Result<Profile> LoadProfile(std::string_view name_or_path, SourceFiles& files, diag::Sink& sink);
 
 /// Reports at `at` that `profile` leaves `key` open, with the line to add.

@@ -1,4 +1,5 @@
-// The one table of profile keys: path, values, meaning, and where the value goes. The loader and docs/profiles.md use it.
+// The one table of profile keys: path, values, meaning, and where the value goes. The loader and docs/profiles.md use
+// it.
 #pragma once
 
 #include <cstdint>
@@ -43,8 +44,8 @@ struct RangeKey {
 struct ChoiceKey {
   std::span<const std::string_view> names;
   void (*set)(Profile&, std::uint8_t);
-  void (*ask)(Profile&);                         // null: the key needs a value
-  void (*set_key)(Profile&, std::string_view);   // null with `ask`
+  void (*ask)(Profile&);                        // null: the key needs a value
+  void (*set_key)(Profile&, std::string_view);  // null with `ask`
 };
 /// Keys with a form of their own; the loader has a function for each.
 enum class SpecialKey : std::uint8_t { kInherits, kAxes, kStart, kVariables, kMCodes, kScratch };
@@ -52,8 +53,8 @@ enum class SpecialKey : std::uint8_t { kInherits, kAxes, kStart, kVariables, kMC
 using KeyBinding = std::variant<TextKey, TextsKey, NumberKey, IntegerKey, FlagKey, RangeKey, ChoiceKey, SpecialKey>;
 
 struct KeyRow {
-  std::string_view path;      // "fanuc.atan-range"
-  std::string_view meaning;   // one line, with units
+  std::string_view path;     // "fanuc.atan-range"
+  std::string_view meaning;  // one line, with units
   KeyBinding binding;
 };
 

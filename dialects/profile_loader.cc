@@ -52,7 +52,8 @@ class Applier {
         Refuse("language", language->value, fmt::format("\"{}\", as in the profile it inherits from,", NameOf(before)));
       }
     } else if (!inherited) {
-      sink_.Report(Code::kMissingKey, {}, "language").help = "add: language = \"fanuc\", or another, or inherits = \"...\"";
+      sink_.Report(Code::kMissingKey, {}, "language").help =
+          "add: language = \"fanuc\", or another, or inherits = \"...\"";
     }
     ApplyTable(root, "");
   }
@@ -103,10 +104,12 @@ class Applier {
     }
     diag::Diagnostic& finding = sink_.Report(Code::kUnknownKey, member.key_at, path);
     if (const std::string_view near = NearName(member.key, siblings); !near.empty()) {
-      finding.help = fmt::format("did you mean {}?", prefix.empty() ? std::string(near) : prefix + "." + std::string(near));
+      finding.help =
+          fmt::format("did you mean {}?", prefix.empty() ? std::string(near) : prefix + "." + std::string(near));
       finding.fixes.push_back({member.key_at, std::string(near)});
     } else if (const std::string_view far = NearName(member.key, all); !far.empty()) {
-      const auto row = std::ranges::find_if(ProfileKeys(), [&](const KeyRow& key) { return LastPart(key.path) == far; });
+      const auto row =
+          std::ranges::find_if(ProfileKeys(), [&](const KeyRow& key) { return LastPart(key.path) == far; });
       finding.help = fmt::format("did you mean {}?", row->path);
     } else {
       finding.help = "all keys: docs/profiles.md";
@@ -214,12 +217,18 @@ class Applier {
 
   void Apply(const KeyRow& row, SpecialKey key, const TomlNode& value) {
     switch (key) {
-      case SpecialKey::kInherits: return;  // resolved before
-      case SpecialKey::kAxes: return ApplyAxes(row, value);
-      case SpecialKey::kStart: return ApplyStart(row, value);
-      case SpecialKey::kVariables: return ApplyVariables(row, value);
-      case SpecialKey::kMCodes: return ApplyMCodes(row, value);
-      case SpecialKey::kScratch: return ApplyScratch(row, value);
+      case SpecialKey::kInherits:
+        return;  // resolved before
+      case SpecialKey::kAxes:
+        return ApplyAxes(row, value);
+      case SpecialKey::kStart:
+        return ApplyStart(row, value);
+      case SpecialKey::kVariables:
+        return ApplyVariables(row, value);
+      case SpecialKey::kMCodes:
+        return ApplyMCodes(row, value);
+      case SpecialKey::kScratch:
+        return ApplyScratch(row, value);
     }
   }
 
@@ -232,7 +241,8 @@ class Applier {
     for (std::size_t i = 0; i < axes.size(); ++i) {
       const std::string& axis = axes[i];
       const bool letter = !axis.empty() && axis[0] >= 'A' && axis[0] <= 'Z';
-      const bool digits = std::all_of(axis.begin() + (letter ? 1 : 0), axis.end(), [](char c) { return c >= '0' && c <= '9'; });
+      const bool digits =
+          std::all_of(axis.begin() + (letter ? 1 : 0), axis.end(), [](char c) { return c >= '0' && c <= '9'; });
       const bool twice = std::find(axes.begin(), axes.begin() + static_cast<std::ptrdiff_t>(i), axis) !=
                          axes.begin() + static_cast<std::ptrdiff_t>(i);
       if (!letter || !digits || axis.size() > 3 || twice) {
@@ -291,10 +301,12 @@ class Applier {
       }
       VariableSpace space;
       if (!ReadSpace(item, space)) continue;
-      const auto other = std::ranges::find_if(spaces, [&](const VariableSpace& known) { return Overlap(known, space); });
+      const auto other =
+          std::ranges::find_if(spaces, [&](const VariableSpace& known) { return Overlap(known, space); });
       if (other != spaces.end()) {
         Refuse("variables.range", item.Find("range")->value,
-               fmt::format("a range without cells of {0}{1} to {0}{2}", other->name, other->range.first, other->range.last));
+               fmt::format("a range without cells of {0}{1} to {0}{2}", other->name, other->range.first,
+                           other->range.last));
         continue;
       }
       spaces.push_back(std::move(space));
@@ -314,7 +326,8 @@ class Applier {
   }
 
   bool ReadSpace(const TomlNode& table, VariableSpace& space) {
-    static constexpr std::string_view kKeys[] = {"name", "range", "type", "lifetime", "visibility", "start", "reserved"};
+    static constexpr std::string_view kKeys[] = {"name",       "range", "type",    "lifetime",
+                                                 "visibility", "start", "reserved"};
     static constexpr std::string_view kTypes[] = {"int", "real", "number"};
     static constexpr ir::Type kTypeValues[] = {ir::Type::kInt, ir::Type::kReal, ir::Type::kNumber};
     static constexpr std::string_view kLifetimes[] = {"call", "program", "kept"};
@@ -378,7 +391,8 @@ class Applier {
     for (const TomlMember& member : value.members) {
       MCodeRule rule;
       if (!ReadMCode(member, rule)) continue;
-      const auto same = std::ranges::find_if(profile_.mcodes, [&](const MCodeRule& other) { return other.source == rule.source; });
+      const auto same =
+          std::ranges::find_if(profile_.mcodes, [&](const MCodeRule& other) { return other.source == rule.source; });
       if (same != profile_.mcodes.end()) {
         *same = std::move(rule);
       } else {
@@ -488,7 +502,8 @@ class Loader {
     }
     NCPORT_TRY_ASSIGN(const TomlNode root, ParseToml(files_, *file, sink_));
     const std::size_t slash = path.rfind('/');
-    return ApplyChain(root, slash == std::string::npos ? std::string_view{} : std::string_view(path).substr(0, slash), sink_);
+    return ApplyChain(root, slash == std::string::npos ? std::string_view{} : std::string_view(path).substr(0, slash),
+                      sink_);
   }
 
   Status LoadBuiltIn(const std::string& name, const SourceRange& named_at) {
@@ -515,15 +530,18 @@ class Loader {
     for (const BuiltInProfile& profile : BuiltInProfiles()) names.push_back(profile.name);
     diag::Diagnostic& finding = sink_.Report(Code::kUnknownProfile, at, name);
     const std::string_view near = NearName(name, names);
-    finding.help = near.empty() ? std::string("ncport list profiles names them; a profile file is named by its path, ending in .toml")
-                                : fmt::format("did you mean {}?", near);
+    finding.help =
+        near.empty()
+            ? std::string("ncport list profiles names them; a profile file is named by its path, ending in .toml")
+            : fmt::format("did you mean {}?", near);
   }
 
   Status ApplyChain(const TomlNode& root, std::string_view folder, diag::Sink& sink) {
     bool inherited = false;
     if (const TomlMember* inherits = root.Find("inherits"); inherits != nullptr) {
       if (inherits->value.kind != TomlKind::kText || inherits->value.text.empty()) {
-        sink.Report(Code::kWrongKeyValue, inherits->value.at, "inherits", inherits->value.Describe(), "a profile name or path");
+        sink.Report(Code::kWrongKeyValue, inherits->value.at, "inherits", inherits->value.Describe(),
+                    "a profile name or path");
         return Failure{};
       }
       NCPORT_TRY(LoadInto(inherits->value.text, folder, inherits->value.at));
@@ -546,7 +564,8 @@ class Loader {
                space.range.Contains(scratch.range.last);
       });
       if (inside) continue;
-      const std::string range = fmt::format("{}{}-{}{}", scratch.space, scratch.range.first, scratch.space, scratch.range.last);
+      const std::string range =
+          fmt::format("{}{}-{}{}", scratch.space, scratch.range.first, scratch.space, scratch.range.last);
       sink_.Report(Code::kWrongKeyValue, {}, "scratch", range, "a part of one space of variables");
     }
   }
@@ -576,12 +595,14 @@ void ReportOpenKey(const Profile& profile, std::string_view key, const SourceRan
   NCPORT_CHECK(row != nullptr, "'{}' is no profile key", key);
   diag::Diagnostic& finding = sink.Report(Code::kOpenKey, at, profile.name, key);
   finding.notes.push_back({{}, fmt::format("{}: {}", key, row->meaning)});
-  finding.help = fmt::format("add to a profile file{}: {} = {}", IsPath(profile.name) ? "" : fmt::format(" with inherits = \"{}\"", profile.name),
-                             key, ValuesOf(*row));
+  finding.help = fmt::format("add to a profile file{}: {} = {}",
+                             IsPath(profile.name) ? "" : fmt::format(" with inherits = \"{}\"", profile.name), key,
+                             ValuesOf(*row));
   // Built-in profiles that answer the question are the shortest answer: mazak-integrex-old, mazak-integrex-new.
   std::string answers;
   for (const BuiltInProfile& other : BuiltInProfiles()) {
-    if (other.name.size() > profile.name.size() && other.name.starts_with(profile.name) && other.name[profile.name.size()] == '-') {
+    if (other.name.size() > profile.name.size() && other.name.starts_with(profile.name) &&
+        other.name[profile.name.size()] == '-') {
       answers += answers.empty() ? "" : " or ";
       answers += other.name;
     }

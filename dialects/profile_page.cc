@@ -46,9 +46,12 @@ std::string ProfilePage() {
       "\n"
       "Written by `ncport_profile_page` from the key table in `dialects/profile_keys.cc`; a test holds it current.\n"
       "\n"
-      "A profile is a TOML file that describes one machine: a language and all that differs between machines of that language. It\n"
-      "names another with `inherits` and says what is different. `ask` instead of a value means that the machine's owner must\n"
-      "answer first: a program that needs the key is refused with the line to add. A key that no file of the chain has is asked too.\n"
+      "A profile is a TOML file that describes one machine: a language and all that differs between machines of that "
+      "language. It\n"
+      "names another with `inherits` and says what is different. `ask` instead of a value means that the machine's "
+      "owner must\n"
+      "answer first: a program that needs the key is refused with the line to add. A key that no file of the chain has "
+      "is asked too.\n"
       "Unknown keys and values are errors with their place.\n"
       "\n"
       "## Built-in profiles\n"
@@ -75,7 +78,8 @@ std::string ProfilePage() {
       "| key | values | meaning |\n"
       "|---|---|---|\n";
   for (const ModalGroup& group : ModalGroups()) {
-    fmt::format_to(std::back_inserter(page), "| `start.{}` | {} | {} |\n", group.key, Cell(ValuesOf(group)), Cell(group.meaning));
+    fmt::format_to(std::back_inserter(page), "| `start.{}` | {} | {} |\n", group.key, Cell(ValuesOf(group)),
+                   Cell(group.meaning));
   }
   AppendKeys(page, true);
   return page;

@@ -12,7 +12,8 @@ namespace ncport::dialects {
 
 inline constexpr std::size_t kMaxSettingsBytes = std::size_t{1} << 20U;
 
-/// Adds the file at `path` to `files`. Reports a file that cannot be read, is no UTF-8 or is longer than kMaxSettingsBytes.
+/// Adds the file at `path` to `files`. Reports a file that cannot be read, is no UTF-8 or is longer than
+/// kMaxSettingsBytes.
 Result<FileId> ReadTextFile(std::string_view path, SourceFiles& files, diag::Sink& sink);
 
 }  // namespace ncport::dialects

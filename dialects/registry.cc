@@ -7,7 +7,8 @@ namespace ncport::dialects {
 namespace {
 
 constexpr LanguageInfo kLanguageInfos[] = {
-    {Language::kSinumerik, "sinumerik", "SINUMERIK 840D sl, 828D, 802D, 802S", "sinumerik-840d-mill", "sinumerik-840d-lathe"},
+    {Language::kSinumerik, "sinumerik", "SINUMERIK 840D sl, 828D, 802D, 802S", "sinumerik-840d-mill",
+     "sinumerik-840d-lathe"},
     {Language::kFanuc, "fanuc", "FANUC Custom Macro B, Mazak EIA/ISO, Haas", "fanuc-mill", "fanuc-lathe-a"},
     {Language::kNum, "num", "NUM 1020 to 1060, Axium, Flexium", "num-mill", "num-lathe"},
     {Language::kLinuxCnc, "linuxcnc", "LinuxCNC (RS-274 with O words)", "linuxcnc-mill", "linuxcnc-lathe"},

@@ -15,8 +15,8 @@ namespace ncport::dialects {
 struct LanguageInfo {
   Language language;
   std::string_view name;
-  std::string_view title;           // one line for `ncport list languages`
-  std::string_view mill_profile;    // usual profiles, taken when no profile is named
+  std::string_view title;         // one line for `ncport list languages`
+  std::string_view mill_profile;  // usual profiles, taken when no profile is named
   std::string_view lathe_profile;
 };
 std::span<const LanguageInfo> Languages();
@@ -24,8 +24,8 @@ const LanguageInfo& InfoOf(Language language);
 std::optional<Language> FindLanguage(std::string_view name);
 
 struct BuiltInProfile {
-  std::string_view name;    // "mazak-qtn"
-  std::string_view text;    // TOML
+  std::string_view name;  // "mazak-qtn"
+  std::string_view text;  // TOML
 };
 /// Sorted by name.
 std::span<const BuiltInProfile> BuiltInProfiles();
@@ -37,7 +37,7 @@ struct ProfileInfo {
   std::string_view name;
   Language language;
   MachineKind machine;
-  std::string title;        // first sentence of the comment at the top of its file
+  std::string title;  // first sentence of the comment at the top of its file
 };
 /// The built-in profiles that can be used as they are, sorted by name.
 std::vector<ProfileInfo> ListProfiles();
@@ -55,7 +55,8 @@ struct LanguageGuess {
 };
 LanguageGuess GuessLanguage(std::string_view file_name, std::string_view text);
 /// The certain language, or a finding at `at` (file without line is fine) that names what speaks for each.
-Result<Language> NeedLanguage(const LanguageGuess& guess, std::string_view file_name, const SourceRange& at, diag::Sink& sink);
+Result<Language> NeedLanguage(const LanguageGuess& guess, std::string_view file_name, const SourceRange& at,
+                              diag::Sink& sink);
 /// Name of the usual profile for a certain guess.
 std::string_view UsualProfile(const LanguageGuess& guess);
 

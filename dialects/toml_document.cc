@@ -78,13 +78,20 @@ class Converter {
 
 std::string TomlNode::Describe() const {
   switch (kind) {
-    case TomlKind::kText: return fmt::format("text \"{}\"", text);
-    case TomlKind::kInteger: return fmt::format("number {}", integer);
-    case TomlKind::kNumber: return fmt::format("number {}", number);
-    case TomlKind::kFlag: return flag ? "true" : "false";
-    case TomlKind::kDate: return "a date or time";
-    case TomlKind::kList: return "a list";
-    case TomlKind::kTable: return "a table";
+    case TomlKind::kText:
+      return fmt::format("text \"{}\"", text);
+    case TomlKind::kInteger:
+      return fmt::format("number {}", integer);
+    case TomlKind::kNumber:
+      return fmt::format("number {}", number);
+    case TomlKind::kFlag:
+      return flag ? "true" : "false";
+    case TomlKind::kDate:
+      return "a date or time";
+    case TomlKind::kList:
+      return "a list";
+    case TomlKind::kTable:
+      return "a table";
   }
   return {};
 }

@@ -19,12 +19,12 @@ struct TomlMember;
 
 struct TomlNode {
   TomlKind kind = TomlKind::kTable;
-  std::string text;            // kText
-  std::int64_t integer = 0;    // kInteger
-  double number = 0;           // kInteger, kNumber
-  bool flag = false;           // kFlag
-  std::vector<TomlNode> items;       // kList
-  std::vector<TomlMember> members;   // kTable, in the order of the file
+  std::string text;                 // kText
+  std::int64_t integer = 0;         // kInteger
+  double number = 0;                // kInteger, kNumber
+  bool flag = false;                // kFlag
+  std::vector<TomlNode> items;      // kList
+  std::vector<TomlMember> members;  // kTable, in the order of the file
   SourceRange at;
 
   [[nodiscard]] bool IsText(std::string_view value) const { return kind == TomlKind::kText && text == value; }

@@ -14,8 +14,8 @@ struct TemplateValue {
   std::string_view text;  // "3"
 };
 
-/// Appends `pattern` with its holes filled. `{tool:02}` pads with zeros to two characters. A hole without a value is a bug:
-/// the holes of profile keys are checked when the profile is read.
+/// Appends `pattern` with its holes filled. `{tool:02}` pads with zeros to two characters. A hole without a value is a
+/// bug: the holes of profile keys are checked when the profile is read.
 void AppendTemplate(TextBuffer& buffer, std::string_view pattern, std::span<const TemplateValue> values);
 
 /// What is wrong with `pattern` if only these holes (separated by blanks) are known: empty if nothing.

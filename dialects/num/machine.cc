@@ -20,10 +20,10 @@ void FillMachine(const Profile& profile, ir::Machine& machine) {
   machine.circle_tolerance = settings.circle_tolerance.Or(0.02);  // NUM-62
   machine.circle_tolerance_factor = 0;
   machine.arc_center_corrected = false;
-  machine.cell_max = 99999999;                                    // NUM-10, num-3.1
-  machine.file_end_is_end = true;                                 // num-7: a subprogram ends with its text
+  machine.cell_max = 99999999;     // NUM-10, num-3.1
+  machine.file_end_is_end = true;  // num-7: a subprogram ends with its text
   machine.end_in_called_program_returns = !settings.end_in_called_ends_all.Or(true);  // NUM-50
-  machine.surface_speed_per_revolution = false;                   // num-8.2: G96 changes the unit of S only
+  machine.surface_speed_per_revolution = false;  // num-8.2: G96 changes the unit of S only
   SetAlarms(kAlarms, machine);
 }
 

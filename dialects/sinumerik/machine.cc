@@ -69,18 +69,18 @@ void SetGroups(ir::Machine& machine) {
 
 void FillMachine(const Profile& profile, ir::Machine& machine) {
   const SinumerikSettings& settings = profile.sinumerik;
-  machine.compare_tolerance = settings.compare_tolerance.Or(1e-12);                      // sinumerik-4.2
-  machine.string_max = 200;                                                              // sinumerik-2.5
-  machine.program_variables_visible = settings.main_variables_visible.Or(false);        // sinumerik-3.6
-  machine.circle_tolerance = settings.circle_tolerance.Or(0.01);                         // sinumerik-8.3
+  machine.compare_tolerance = settings.compare_tolerance.Or(1e-12);               // sinumerik-4.2
+  machine.string_max = 200;                                                       // sinumerik-2.5
+  machine.program_variables_visible = settings.main_variables_visible.Or(false);  // sinumerik-3.6
+  machine.circle_tolerance = settings.circle_tolerance.Or(0.01);                  // sinumerik-8.3
   machine.circle_tolerance_factor = settings.circle_tolerance_factor.Or(0.001);
-  machine.incremental_traverses_frame = settings.incremental_traverses_frame.Or(false);  // sinumerik-8.2
+  machine.incremental_traverses_frame = settings.incremental_traverses_frame.Or(false);                // sinumerik-8.2
   machine.rotation_order_rpy = !settings.rotation_order.Is(SinumerikSettings::RotationOrder::kEuler);  // sinumerik-8.7
   machine.chamfer_feed_from_next = !settings.corner_feed.Is(SinumerikSettings::CornerFeed::kOwn);      // sinumerik-8.9
-  machine.frame_shift_in_diameter = settings.frames_as_diameter.Or(false);               // sinumerik-8.5
-  machine.tool_activates_edge = settings.change_selects_edge.Or(true);                   // sinumerik-8.8
-  machine.for_end_once = !settings.for_end_each_pass.Or(false);                          // sinumerik-6.3
-  machine.modal_call_trigger = ir::ModalCallTrigger::kMotionBlocks;                      // sinumerik-7.1
+  machine.frame_shift_in_diameter = settings.frames_as_diameter.Or(false);                             // sinumerik-8.5
+  machine.tool_activates_edge = settings.change_selects_edge.Or(true);                                 // sinumerik-8.8
+  machine.for_end_once = !settings.for_end_each_pass.Or(false);                                        // sinumerik-6.3
+  machine.modal_call_trigger = ir::ModalCallTrigger::kMotionBlocks;                                    // sinumerik-7.1
   // sinumerik-8.11: 62000 and 66000 clear with CANCEL, 67000 only displays; all others stop.
   machine.shown_alarms = {{62000, 62999}, {66000, 67999}};
   SetAlarms(kAlarms, machine);

@@ -74,7 +74,7 @@ select = ["NC5"]
   CHECK(config.from == "sinumerik-840d-lathe");
   CHECK(config.to == "mazak-qtn");
   CHECK(config.FindTool("T1 D1")->target == "T0101");
-  CHECK(config.FindTool("T1")->target == "T0101");      // a call without D also matches its D1 key
+  CHECK(config.FindTool("T1")->target == "T0101");  // a call without D also matches its D1 key
   CHECK(config.FindTool("t1  d1")->target == "T0101");
   CHECK(config.FindTool("T1 D2") == nullptr);
   CHECK(config.FindTool("T=\"FINISHING_T35 A\" D1")->target == "T0303");
@@ -102,18 +102,22 @@ select = ["NC5"]
 TEST_CASE("wrong lines are named with place and remedy") {
   CHECK(Reading("form = \"x\"\n").First() == "1 NC2101 unknown key form | did you mean from?");
   CHECK(Reading("[tols]\n\"T1\" = \"T0101\"\n").First() == "1 NC2101 unknown key tols | did you mean tools?");
-  CHECK(Reading("[check]\nfail_on = \"error\"\n").First() == "2 NC2101 unknown key check.fail_on | did you mean fail-on?");
+  CHECK(Reading("[check]\nfail_on = \"error\"\n").First() ==
+        "2 NC2101 unknown key check.fail_on | did you mean fail-on?");
   CHECK(Reading("[check]\nfail-on = \"no\"\n").First() ==
         "2 NC2102 check.fail-on is text \"no\" where one of error | warning | never is needed");
   CHECK(Reading("[check]\nignore = [\"NC0007\"]\n").First() ==
         "2 NC2102 check.ignore is text \"NC0007\" where a code such as \"NC2007\" that exists is needed");
   CHECK(Reading("[ranges]\nR1 = [5, 1]\n").First() == "2 NC2102 ranges.R1 is a list where [least, most] is needed");
   CHECK(Reading("[limits]\nspindel = 5\n").First() == "2 NC2101 unknown key limits.spindel | did you mean spindle?");
-  CHECK(Reading("[limits]\nfeed = -5\n").First() == "2 NC2102 limits.feed is number -5 where a number above 0 is needed");
+  CHECK(Reading("[limits]\nfeed = -5\n").First() ==
+        "2 NC2102 limits.feed is number -5 where a number above 0 is needed");
   CHECK(Reading("[tools]\n\"T1 D1\" = 5\n").First() ==
         "2 NC2102 tools.T1 D1 is number 5 where a text, words of the target, is needed");
-  CHECK(Reading("[tools]\n\"T1 D1\" = \"T0101\"\n\"t1 D1\" = \"T0202\"\n").First() == "3 NC2002 tools.t1 D1 is declared twice");
-  CHECK(Reading("[mcodes]\nQ1 = \"drop\"\n").First() == "2 NC2101 unknown key mcodes.Q1 | keys are words such as M41, H5 or G187");
+  CHECK(Reading("[tools]\n\"T1 D1\" = \"T0101\"\n\"t1 D1\" = \"T0202\"\n").First() ==
+        "3 NC2002 tools.t1 D1 is declared twice");
+  CHECK(Reading("[mcodes]\nQ1 = \"drop\"\n").First() ==
+        "2 NC2101 unknown key mcodes.Q1 | keys are words such as M41, H5 or G187");
   CHECK(Reading("tools = 5\n").First() == "1 NC2102 tools is number 5 where a table [tools] is needed");
 }
 

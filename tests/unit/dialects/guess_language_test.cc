@@ -36,7 +36,8 @@ TEST_CASE("literal blocks speak for no language") {
   CHECK(Guess("part.nc", "G0 X1 Y2\nG1 Z-1 F100\nM30\n").empty());
   diag::Sink sink;
   CHECK_FALSE(NeedLanguage(GuessLanguage("part.nc", "G0 X1\n"), "part.nc", {}, sink).Ok());
-  CHECK(sink.All()[0].message == "language of part.nc is not clear: neither its ending nor a word in it speaks for one");
+  CHECK(sink.All()[0].message ==
+        "language of part.nc is not clear: neither its ending nor a word in it speaks for one");
 }
 
 TEST_CASE("two languages are a contradiction that names both") {
@@ -52,7 +53,9 @@ TEST_CASE("words in comments and texts are no signs") {
 }
 
 TEST_CASE("a lathe word chooses the lathe profile") {
-  const auto usual = [](std::string_view name, std::string_view text) { return UsualProfile(GuessLanguage(name, text)); };
+  const auto usual = [](std::string_view name, std::string_view text) {
+    return UsualProfile(GuessLanguage(name, text));
+  };
   CHECK(usual("a.mpf", "G1 X1\n") == "sinumerik-840d-mill");
   CHECK(usual("a.mpf", "DIAMON\nG1 X1\n") == "sinumerik-840d-lathe");
   CHECK(usual("a.mpf", "G96 S300 LIMS=3200\n") == "sinumerik-840d-lathe");

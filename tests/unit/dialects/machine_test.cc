@@ -82,7 +82,8 @@ TEST_CASE("computed codes are found by number") {
   CHECK(meaning(machine.g_codes, 180)->index == static_cast<std::uint8_t>(ir::Plane::kZX));
   CHECK(meaning(machine.m_codes, 50)->op == ir::WordOp::kSpindle);
   CHECK(meaning(machine.g_codes, 40) == nullptr);  // G4 needs words of its block
-  for (std::size_t i = 1; i < machine.g_codes.size(); ++i) CHECK(machine.g_codes[i - 1].tenths < machine.g_codes[i].tenths);
+  for (std::size_t i = 1; i < machine.g_codes.size(); ++i)
+    CHECK(machine.g_codes[i - 1].tenths < machine.g_codes[i].tenths);
 }
 
 TEST_CASE("settings of the profile reach the machine") {

@@ -88,11 +88,28 @@ TEST_CASE("the profiles of the contract exist") {
     }
     return result;
   }();
-  for (const char* name :
-       {"sinumerik-840d-mill", "sinumerik-840d-lathe", "sinumerik-802d-mill", "sinumerik-802d-lathe", "sinumerik-802s-mill",
-        "sinumerik-802s-lathe", "fanuc-mill", "fanuc-lathe-a", "fanuc-lathe-b", "fanuc-lathe-c", "mazak-mill", "mazak-qtn",
-        "mazak-integrex-old", "mazak-integrex-new", "haas-mill", "haas-lathe", "num-mill", "num-lathe", "iso-mill",
-        "iso-lathe", "linuxcnc-mill", "linuxcnc-lathe"}) {
+  for (const char* name : {"sinumerik-840d-mill",
+                           "sinumerik-840d-lathe",
+                           "sinumerik-802d-mill",
+                           "sinumerik-802d-lathe",
+                           "sinumerik-802s-mill",
+                           "sinumerik-802s-lathe",
+                           "fanuc-mill",
+                           "fanuc-lathe-a",
+                           "fanuc-lathe-b",
+                           "fanuc-lathe-c",
+                           "mazak-mill",
+                           "mazak-qtn",
+                           "mazak-integrex-old",
+                           "mazak-integrex-new",
+                           "haas-mill",
+                           "haas-lathe",
+                           "num-mill",
+                           "num-lathe",
+                           "iso-mill",
+                           "iso-lathe",
+                           "linuxcnc-mill",
+                           "linuxcnc-lathe"}) {
     CHECK_MESSAGE(names.contains(name), name);
   }
   CHECK_FALSE(names.contains("mazak-integrex"));
@@ -108,7 +125,8 @@ TEST_CASE("a plain INTEGREX is refused with the question which") {
 }
 
 TEST_CASE("values of a child win, all others come from the parent") {
-  const Profile profile = Read("inherits = \"fanuc-mill\"\nincrement = 0.0001\n[start]\nplane = \"zx\"\n[fanuc]\nlogic = \"bits\"\n");
+  const Profile profile =
+      Read("inherits = \"fanuc-mill\"\nincrement = 0.0001\n[start]\nplane = \"zx\"\n[fanuc]\nlogic = \"bits\"\n");
   const Profile parent = BuiltIn("fanuc-mill");
   CHECK(*profile.increment == 0.0001);
   CHECK(profile.start.plane == ir::Plane::kZX);
@@ -126,7 +144,8 @@ TEST_CASE("start = unknown forgets the inherited state") {
 
 TEST_CASE("a space of variables replaces inherited ones that it touches") {
   const std::string space =
-      "name = \"#\"\ntype = \"number\"\nlifetime = \"kept\"\nvisibility = \"all\"\nstart = \"unknown\"\nreserved = [[510, 519]]\n";
+      "name = \"#\"\ntype = \"number\"\nlifetime = \"kept\"\nvisibility = \"all\"\nstart = \"unknown\"\nreserved = "
+      "[[510, 519]]\n";
   const Profile profile = Read("inherits = \"fanuc-mill\"\n[[variables]]\n" + space + "range = [500, 531]\n");
   REQUIRE(profile.variables.size() == 3);
   CHECK(profile.variables[2].range == NumberRange{500, 531});
@@ -134,9 +153,10 @@ TEST_CASE("a space of variables replaces inherited ones that it touches") {
   REQUIRE(profile.variables[2].reserved.size() == 1);
   CHECK(profile.variables[2].reserved[0].Contains(519));
   CHECK_FALSE(profile.variables[2].reserved[0].Contains(520));
-  const std::string twice = Finding("inherits = \"fanuc-mill\"\n[[variables]]\n" + space + "range = [500, 531]\n[[variables]]\n" +
-                                    space + "range = [531, 540]\n");
-  CHECK(twice.find("NC2102 variables.range is a list where a range without cells of #500 to #531 is needed") != std::string::npos);
+  const std::string twice = Finding("inherits = \"fanuc-mill\"\n[[variables]]\n" + space +
+                                    "range = [500, 531]\n[[variables]]\n" + space + "range = [531, 540]\n");
+  CHECK(twice.find("NC2102 variables.range is a list where a range without cells of #500 to #531 is needed") !=
+        std::string::npos);
 }
 
 TEST_CASE("ask opens a key again and names the line to add") {
@@ -175,19 +195,24 @@ TEST_CASE("every key asks under its own path") {
 TEST_CASE("wrong keys and values are named with place and remedy") {
   const std::string head = "inherits = \"fanuc-mill\"\n";
   CHECK(Finding(head + "diametre = \"yes\"\n") == "2:1 NC2101 unknown key diametre | did you mean diameter?");
-  CHECK(Finding(head + "[spindle]\nlimmit = \"x\"\n") == "3:1 NC2101 unknown key spindle.limmit | did you mean spindle.limit?");
-  CHECK(Finding(head + "atan-range = \"signed\"\n") == "2:1 NC2101 unknown key atan-range | did you mean fanuc.atan-range?");
+  CHECK(Finding(head + "[spindle]\nlimmit = \"x\"\n") ==
+        "3:1 NC2101 unknown key spindle.limmit | did you mean spindle.limit?");
+  CHECK(Finding(head + "atan-range = \"signed\"\n") ==
+        "2:1 NC2101 unknown key atan-range | did you mean fanuc.atan-range?");
   CHECK(Finding(head + "colour = 1\n") == "2:1 NC2101 unknown key colour | all keys: docs/profiles.md");
   CHECK(Finding(head + "diameter = \"yse\"\n") ==
         "2:12 NC2102 diameter is text \"yse\" where one of no | yes | modal is needed | did you mean \"yes\"?");
   CHECK(Finding(head + "increment = 5\n") == "2:13 NC2102 increment is number 5 where a number, 1e-06 .. 1, is needed");
-  CHECK(Finding(head + "decimals = 2.5\n") == "2:12 NC2102 decimals is number 2.5 where a whole number, 0 .. 9, is needed");
+  CHECK(Finding(head + "decimals = 2.5\n") ==
+        "2:12 NC2102 decimals is number 2.5 where a whole number, 0 .. 9, is needed");
   CHECK(Finding(head + "tool = \"T{tol}\"\n") ==
-        "2:8 NC2102 tool is text \"T{tol}\" where text with {tool} {offset} is needed | {tol} is not one of its holes: tool offset");
+        "2:8 NC2102 tool is text \"T{tol}\" where text with {tool} {offset} is needed | {tol} is not one of its holes: "
+        "tool offset");
   CHECK(Finding(head + "[start]\nplan = \"xy\"\n") == "3:1 NC2101 unknown key start.plan | did you mean plane?");
   CHECK(Finding(head + "[start]\nplane = \"xz\"\n") ==
         "3:9 NC2102 start.plane is text \"xz\" where one of unknown | xy | zx | yz is needed");
-  CHECK(Finding(head + "[fanuc]\no-word = 1\n") == "3:10 NC2102 fanuc.o-word is number 1 where \"yes\" or \"no\" is needed");
+  CHECK(Finding(head + "[fanuc]\no-word = 1\n") ==
+        "3:10 NC2102 fanuc.o-word is number 1 where \"yes\" or \"no\" is needed");
   CHECK(Finding(head + "[num]\nstructured = \"yes\"\n") ==
         "3:1 NC2101 unknown key num.structured | table [num] holds for language \"num\", this profile is \"fanuc\"");
   CHECK(Finding(head + "axes = [\"X\", \"X\"]\n").starts_with("2:14 NC2102 axes is text \"X\" where each axis once"));
@@ -195,13 +220,15 @@ TEST_CASE("wrong keys and values are named with place and remedy") {
         "0:1 NC2102 scratch is #34-#40 where a part of one space of variables is needed");
   CHECK(Finding(head + "language = \"num\"\n") ==
         "2:12 NC2102 language is text \"num\" where \"fanuc\", as in the profile it inherits from, is needed");
-  CHECK(Finding(head + "[mcodes]\nX41 = \"drop\"\n") == "3:1 NC2101 unknown key mcodes.X41 | keys are words such as M41, H5 or G187");
+  CHECK(Finding(head + "[mcodes]\nX41 = \"drop\"\n") ==
+        "3:1 NC2101 unknown key mcodes.X41 | keys are words such as M41, H5 or G187");
   CHECK(Finding("x = = 1\n").starts_with("1:5 NC1090 this is not TOML: "));
   CHECK(Finding("axes = [\"X\"]\n").starts_with("0:1 NC2106 machine is missing"));
 }
 
 TEST_CASE("unknown profiles and circles of inheritance are refused") {
-  CHECK(Finding("inherits = \"fanuc-mil\"\n") == "1:12 NC2104 there is no profile fanuc-mil | did you mean fanuc-mill?");
+  CHECK(Finding("inherits = \"fanuc-mil\"\n") ==
+        "1:12 NC2104 there is no profile fanuc-mil | did you mean fanuc-mill?");
   SourceFiles files;
   diag::Sink sink;
   const Folder folder;

@@ -64,9 +64,7 @@ ExprId ExprBuilder::Text(std::string_view text) {
 
 ExprId ExprBuilder::Vacant() { return module_.AddExpr(Leaf(ExprOp::kVacant, Type::kNumber, 0)); }
 
-ExprId ExprBuilder::AxisName(std::uint8_t axis) {
-  return module_.AddExpr(Leaf(ExprOp::kAxisName, Type::kAxis, axis));
-}
+ExprId ExprBuilder::AxisName(std::uint8_t axis) { return module_.AddExpr(Leaf(ExprOp::kAxisName, Type::kAxis, axis)); }
 
 ExprId ExprBuilder::Variable(VariableId variable) {
   return module_.AddExpr(Leaf(ExprOp::kVariable, module_.variables[variable].type, variable.value));

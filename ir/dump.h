@@ -11,10 +11,12 @@
 //       ; end-of-block "down to the face"
 //     @ring.spf:3 link +4 : if = gt!tolerance:bool(cell:real R[1], 5:real)
 //
-// One record a line; indentation is for the eye. A block starts with the place it came from. Words follow the colon: name, what
-// index and extra mean, `= value`, attributes in braces. Expressions are an operation or a literal as written, then flags with
-// `!`, the type with `:`, the columns with `@`, the operands. Names stand bare or in quotes; `NAME~2` is the second record of
-// that name; `-` is a missing entry. `//` starts a comment. What a module under verification holds by mistake prints as
+// One record a line; indentation is for the eye. A block starts with the place it came from. Words follow the colon:
+// name, what index and extra mean, `= value`, attributes in braces. Expressions are an operation or a literal as
+// written, then flags with
+// `!`, the type with `:`, the columns with `@`, the operands. Names stand bare or in quotes; `NAME~2` is the second
+// record of that name; `-` is a missing entry. `//` starts a comment. What a module under verification holds by mistake
+// prints as
 // `?number`, which ParseDump refuses.
 #pragma once
 
@@ -31,9 +33,9 @@ inline constexpr unsigned kMaxExprDepth = 1000;
 inline constexpr unsigned kMaxOriginDepth = 1000;
 
 struct DumpOptions {
-  bool places = true;           // columns of words, expressions and variables; without them the dump is easier to read
-  bool spellings = true;        // spelling and written digits of words
-  BlockId marked;               // a comment line with `mark` follows this block, or the whole dump if it is in no program
+  bool places = true;     // columns of words, expressions and variables; without them the dump is easier to read
+  bool spellings = true;  // spelling and written digits of words
+  BlockId marked;         // a comment line with `mark` follows this block, or the whole dump if it is in no program
   std::string_view mark = {};
 };
 

@@ -62,7 +62,8 @@ void DumpWriter::AxisRef(std::uint32_t axis) {
   // Axes are few: those of the same name before this one are counted.
   const StringId name = module_.axis_names[named];
   const std::string_view text = name.value < module_.strings.Size() ? module_.strings.View(name) : std::string_view{};
-  std::uint32_t ordinal = text.size() == 1 && std::string_view("XYZABCUVW").find(text) != std::string_view::npos ? 2 : 1;
+  std::uint32_t ordinal =
+      text.size() == 1 && std::string_view("XYZABCUVW").find(text) != std::string_view::npos ? 2 : 1;
   for (std::uint32_t before = 0; before < named; ++before) ordinal += module_.axis_names[before] == name ? 1U : 0U;
   Name(name);
   Ordinal(ordinal);
@@ -191,7 +192,8 @@ void DumpWriter::Expr(ExprId id, unsigned depth) {
   switch (expr.op) {
     case ExprOp::kLiteral:
     case ExprOp::kText:
-    case ExprOp::kVacant: return;
+    case ExprOp::kVacant:
+      return;
     case ExprOp::kAxisName:
       Put(' ');
       return AxisRef(expr.a);
@@ -229,7 +231,8 @@ void DumpWriter::Expr(ExprId id, unsigned depth) {
       Put(' ');
       expr.a < 256 ? Known(static_cast<Function>(expr.a)) : Unknown(expr.a);
       return List(expr, depth);
-    default: break;
+    default:
+      break;
   }
   Put('(');
   Expr(operand(expr.a), depth + 1);

@@ -66,7 +66,7 @@ class DumpParser {
   void ItemList(Expr& expr, unsigned depth);
   IdRange<ExprItemId> AddItems(const std::vector<ExprId>& items);
   std::uint8_t AxisRef();
-  StringId Name();          // `-` is none
+  StringId Name();  // `-` is none
   StringId NeedName();
   VariableId VariableRef();
   ProgramId ProgramRef();

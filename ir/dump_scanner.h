@@ -1,4 +1,5 @@
-// Reads the tokens of one line of a dump. The first failure sticks: what is read afterwards is empty and changes nothing.
+// Reads the tokens of one line of a dump. The first failure sticks: what is read afterwards is empty and changes
+// nothing.
 #pragma once
 
 #include <cstdint>

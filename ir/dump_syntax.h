@@ -8,7 +8,7 @@ namespace ncport::ir {
 inline constexpr std::string_view kDumpTitle = "ncport-ir 1";
 
 // By bit of the flags.
-inline constexpr std::string_view kExprFlagNames[] = {"tolerance",      "implicit",  "operands-to-int", "vacant-as-zero",
+inline constexpr std::string_view kExprFlagNames[] = {"tolerance", "implicit",      "operands-to-int", "vacant-as-zero",
                                                       "round-cut", "numeric-model", "vacant-differs"};
 inline constexpr std::string_view kNumberFlagNames[] = {"point", "plus", "as-text", "computed"};
 inline constexpr std::string_view kWordFlagNames[] = {"equal", "vanishes", "rounds", "added", "freezes"};

@@ -10,28 +10,46 @@ namespace {
 // Values of modal groups and kinds by the name of their list; empty: not in the list, or no list.
 std::string_view IndexName(IndexKind kind, std::uint8_t index) {
   switch (kind) {
-    case IndexKind::kMotion: return NameOf(static_cast<Motion>(index));
-    case IndexKind::kPlane: return NameOf(static_cast<Plane>(index));
-    case IndexKind::kDistance: return NameOf(static_cast<Distance>(index));
-    case IndexKind::kUnits: return NameOf(static_cast<Units>(index));
-    case IndexKind::kFeedMode: return NameOf(static_cast<FeedMode>(index));
-    case IndexKind::kSpeedMode: return NameOf(static_cast<SpeedMode>(index));
-    case IndexKind::kCutterComp: return NameOf(static_cast<CutterComp>(index));
-    case IndexKind::kDiameter: return NameOf(static_cast<Diameter>(index));
-    case IndexKind::kPathMode: return NameOf(static_cast<PathMode>(index));
-    case IndexKind::kReturnLevel: return NameOf(static_cast<ReturnLevel>(index));
-    case IndexKind::kChamfer: return NameOf(static_cast<ChamferKind>(index));
-    case IndexKind::kReference: return NameOf(static_cast<ReferenceKind>(index));
-    case IndexKind::kPole: return NameOf(static_cast<PoleBase>(index));
-    case IndexKind::kFrame: return NameOf(static_cast<FrameOp>(index));
-    case IndexKind::kAlarm: return NameOf(static_cast<AlarmKind>(index));
-    case IndexKind::kReturn: return NameOf(static_cast<ReturnKind>(index));
+    case IndexKind::kMotion:
+      return NameOf(static_cast<Motion>(index));
+    case IndexKind::kPlane:
+      return NameOf(static_cast<Plane>(index));
+    case IndexKind::kDistance:
+      return NameOf(static_cast<Distance>(index));
+    case IndexKind::kUnits:
+      return NameOf(static_cast<Units>(index));
+    case IndexKind::kFeedMode:
+      return NameOf(static_cast<FeedMode>(index));
+    case IndexKind::kSpeedMode:
+      return NameOf(static_cast<SpeedMode>(index));
+    case IndexKind::kCutterComp:
+      return NameOf(static_cast<CutterComp>(index));
+    case IndexKind::kDiameter:
+      return NameOf(static_cast<Diameter>(index));
+    case IndexKind::kPathMode:
+      return NameOf(static_cast<PathMode>(index));
+    case IndexKind::kReturnLevel:
+      return NameOf(static_cast<ReturnLevel>(index));
+    case IndexKind::kChamfer:
+      return NameOf(static_cast<ChamferKind>(index));
+    case IndexKind::kReference:
+      return NameOf(static_cast<ReferenceKind>(index));
+    case IndexKind::kPole:
+      return NameOf(static_cast<PoleBase>(index));
+    case IndexKind::kFrame:
+      return NameOf(static_cast<FrameOp>(index));
+    case IndexKind::kAlarm:
+      return NameOf(static_cast<AlarmKind>(index));
+    case IndexKind::kReturn:
+      return NameOf(static_cast<ReturnKind>(index));
     case IndexKind::kMark:
       return IsStructureMark(static_cast<WordOp>(index)) ? NameOf(static_cast<WordOp>(index)) : std::string_view{};
-    case IndexKind::kCoordinate: return index < 3 ? std::string_view("IJK").substr(index, 1) : std::string_view{};
+    case IndexKind::kCoordinate:
+      return index < 3 ? std::string_view("IJK").substr(index, 1) : std::string_view{};
     case IndexKind::kNone:
     case IndexKind::kAxis:
-    case IndexKind::kNumber: break;
+    case IndexKind::kNumber:
+      break;
   }
   return {};
 }
@@ -67,7 +85,8 @@ void DumpWriter::Index(const ir::Word& word) {
       if (word.index == 0) return;
       Put(' ');
       return Number(word.index);
-    default: break;
+    default:
+      break;
   }
   Put(' ');
   const std::string_view name = IndexName(kind, word.index);
@@ -81,21 +100,31 @@ void DumpWriter::Extra(const ir::Word& word) {
   Put(' ');
   if (missing) return Put('-');
   switch (shape.extra) {
-    case ExtraKind::kNone: return Unknown(word.extra);
+    case ExtraKind::kNone:
+      return Unknown(word.extra);
     case ExtraKind::kNumber:
       Put('#');  // tells it from the index
       return Number(word.extra);
     case ExtraKind::kSpindleState:
       return word.extra < 256 ? Known(static_cast<SpindleState>(word.extra)) : Unknown(word.extra);
-    case ExtraKind::kExpr: return Expr(word.Extra<ExprId>());
-    case ExtraKind::kVariable: return VariableRef(word.Extra<VariableId>());
-    case ExtraKind::kProgram: return ProgramRef(word.Extra<ProgramId>());
-    case ExtraKind::kExtern: return Extern(word.Extra<ExternId>());
-    case ExtraKind::kAssignList: return AssignList(word.Extra<AssignListId>());
-    case ExtraKind::kJump: return Jump(word.Extra<JumpId>());
-    case ExtraKind::kSwitch: return Switch(word.Extra<SwitchId>());
-    case ExtraKind::kCall: return Call(word.Extra<CallId>());
-    case ExtraKind::kPart: return Part(word.Extra<PartId>());
+    case ExtraKind::kExpr:
+      return Expr(word.Extra<ExprId>());
+    case ExtraKind::kVariable:
+      return VariableRef(word.Extra<VariableId>());
+    case ExtraKind::kProgram:
+      return ProgramRef(word.Extra<ProgramId>());
+    case ExtraKind::kExtern:
+      return Extern(word.Extra<ExternId>());
+    case ExtraKind::kAssignList:
+      return AssignList(word.Extra<AssignListId>());
+    case ExtraKind::kJump:
+      return Jump(word.Extra<JumpId>());
+    case ExtraKind::kSwitch:
+      return Switch(word.Extra<SwitchId>());
+    case ExtraKind::kCall:
+      return Call(word.Extra<CallId>());
+    case ExtraKind::kPart:
+      return Part(word.Extra<PartId>());
     case ExtraKind::kFor: {
       const ForId id = word.Extra<ForId>();
       if (!module_.fors.Contains(id)) return Unknown(id.value);

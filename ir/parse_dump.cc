@@ -38,9 +38,7 @@ void DumpParser::Report(diag::Code code, std::string_view expected, std::string_
   sink_.Report(code, {file_, line_, scan_.Begin(), scan_.Begin() + 1}, expected, found);
 }
 
-void DumpParser::ReportScanner() {
-  Report(diag::Code::kExpectedText, scan_.Expected(), scan_.Found());
-}
+void DumpParser::ReportScanner() { Report(diag::Code::kExpectedText, scan_.Expected(), scan_.Found()); }
 
 Result<Module> DumpParser::Run() {
   // Names may be used before their lines: a first pass makes the records, the second fills them.

@@ -215,11 +215,20 @@ ExprId DumpParser::ExprText(unsigned depth) {
       place = Suffixes(expr);
       expr.b = 0;
       switch (expr.op) {
-        case ExprOp::kLiteral: break;
-        case ExprOp::kText: scan_.Fail("a text in quotes"); break;
-        case ExprOp::kVacant: expr.a = 0; break;
-        case ExprOp::kAxisName: expr.a = AxisRef(); break;
-        case ExprOp::kVariable: expr.a = VariableRef().value; break;
+        case ExprOp::kLiteral:
+          break;
+        case ExprOp::kText:
+          scan_.Fail("a text in quotes");
+          break;
+        case ExprOp::kVacant:
+          expr.a = 0;
+          break;
+        case ExprOp::kAxisName:
+          expr.a = AxisRef();
+          break;
+        case ExprOp::kVariable:
+          expr.a = VariableRef().value;
+          break;
         case ExprOp::kElement:
           expr.a = VariableRef().value;
           ItemList(expr, depth);

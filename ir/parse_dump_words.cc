@@ -45,24 +45,42 @@ void DumpParser::WordText() {
 std::uint8_t DumpParser::Index(WordOp op) {
   const auto raw = [](auto value) { return static_cast<std::uint8_t>(value); };
   switch (ShapeOf(op).index) {
-    case IndexKind::kNone: return 0;
-    case IndexKind::kMotion: return raw(Value<Motion>("a motion"));
-    case IndexKind::kPlane: return raw(Value<Plane>("a plane"));
-    case IndexKind::kDistance: return raw(Value<Distance>("absolute or incremental"));
-    case IndexKind::kUnits: return raw(Value<Units>("a unit"));
-    case IndexKind::kFeedMode: return raw(Value<FeedMode>("a feed mode"));
-    case IndexKind::kSpeedMode: return raw(Value<SpeedMode>("a speed mode"));
-    case IndexKind::kCutterComp: return raw(Value<CutterComp>("a compensation"));
-    case IndexKind::kDiameter: return raw(Value<Diameter>("a diameter mode"));
-    case IndexKind::kPathMode: return raw(Value<PathMode>("a path mode"));
-    case IndexKind::kReturnLevel: return raw(Value<ReturnLevel>("a return level"));
-    case IndexKind::kChamfer: return raw(Value<ChamferKind>("a kind of chamfer"));
-    case IndexKind::kReference: return raw(Value<ReferenceKind>("a kind of reference"));
-    case IndexKind::kPole: return raw(Value<PoleBase>("a base of the pole"));
-    case IndexKind::kFrame: return raw(Value<FrameOp>("a frame operation"));
-    case IndexKind::kAlarm: return raw(Value<AlarmKind>("a kind of alarm"));
-    case IndexKind::kReturn: return raw(Value<ReturnKind>("a kind of return"));
-    case IndexKind::kAxis: return AxisRef();
+    case IndexKind::kNone:
+      return 0;
+    case IndexKind::kMotion:
+      return raw(Value<Motion>("a motion"));
+    case IndexKind::kPlane:
+      return raw(Value<Plane>("a plane"));
+    case IndexKind::kDistance:
+      return raw(Value<Distance>("absolute or incremental"));
+    case IndexKind::kUnits:
+      return raw(Value<Units>("a unit"));
+    case IndexKind::kFeedMode:
+      return raw(Value<FeedMode>("a feed mode"));
+    case IndexKind::kSpeedMode:
+      return raw(Value<SpeedMode>("a speed mode"));
+    case IndexKind::kCutterComp:
+      return raw(Value<CutterComp>("a compensation"));
+    case IndexKind::kDiameter:
+      return raw(Value<Diameter>("a diameter mode"));
+    case IndexKind::kPathMode:
+      return raw(Value<PathMode>("a path mode"));
+    case IndexKind::kReturnLevel:
+      return raw(Value<ReturnLevel>("a return level"));
+    case IndexKind::kChamfer:
+      return raw(Value<ChamferKind>("a kind of chamfer"));
+    case IndexKind::kReference:
+      return raw(Value<ReferenceKind>("a kind of reference"));
+    case IndexKind::kPole:
+      return raw(Value<PoleBase>("a base of the pole"));
+    case IndexKind::kFrame:
+      return raw(Value<FrameOp>("a frame operation"));
+    case IndexKind::kAlarm:
+      return raw(Value<AlarmKind>("a kind of alarm"));
+    case IndexKind::kReturn:
+      return raw(Value<ReturnKind>("a kind of return"));
+    case IndexKind::kAxis:
+      return AxisRef();
     case IndexKind::kCoordinate: {
       const std::string_view name = scan_.Name();
       const std::size_t index = std::string_view("IJK").find(name);
@@ -93,20 +111,35 @@ std::uint32_t DumpParser::Extra(WordOp op) {
   }
   if (!IsNumberAhead() && scan_.Take("-")) return Id<void>::kNone;
   switch (shape.extra) {
-    case ExtraKind::kNone: break;
-    case ExtraKind::kNumber: scan_.Need("#"); return scan_.Number(kMaxNumber);
-    case ExtraKind::kSpindleState: return static_cast<std::uint32_t>(Value<SpindleState>("a spindle state"));
-    case ExtraKind::kExpr: return Raw(ExprText());
-    case ExtraKind::kVariable: return Raw(VariableRef());
-    case ExtraKind::kProgram: return Raw(ProgramRef());
-    case ExtraKind::kExtern: return Raw(ExternText());
-    case ExtraKind::kAssignList: return Raw(AssignListText());
-    case ExtraKind::kJump: return Raw(JumpText());
-    case ExtraKind::kSwitch: return Raw(SwitchText());
-    case ExtraKind::kCall: return Raw(CallText());
-    case ExtraKind::kPart: return Raw(PartText());
-    case ExtraKind::kFor: return Raw(ForText());
-    case ExtraKind::kString: return Raw(module_.strings.Intern(scan_.Text()));
+    case ExtraKind::kNone:
+      break;
+    case ExtraKind::kNumber:
+      scan_.Need("#");
+      return scan_.Number(kMaxNumber);
+    case ExtraKind::kSpindleState:
+      return static_cast<std::uint32_t>(Value<SpindleState>("a spindle state"));
+    case ExtraKind::kExpr:
+      return Raw(ExprText());
+    case ExtraKind::kVariable:
+      return Raw(VariableRef());
+    case ExtraKind::kProgram:
+      return Raw(ProgramRef());
+    case ExtraKind::kExtern:
+      return Raw(ExternText());
+    case ExtraKind::kAssignList:
+      return Raw(AssignListText());
+    case ExtraKind::kJump:
+      return Raw(JumpText());
+    case ExtraKind::kSwitch:
+      return Raw(SwitchText());
+    case ExtraKind::kCall:
+      return Raw(CallText());
+    case ExtraKind::kPart:
+      return Raw(PartText());
+    case ExtraKind::kFor:
+      return Raw(ForText());
+    case ExtraKind::kString:
+      return Raw(module_.strings.Intern(scan_.Text()));
   }
   return Id<void>::kNone;
 }

@@ -46,9 +46,15 @@ class Builder {
       module_.blocks[id].link = {};
       const Mark kind = MarkOf(OpOf(module_.words[mark]));
       switch (kind.role) {
-        case Role::kOpen: Open(id, mark, kind.kind); break;
-        case Role::kMiddle: Middle(id, mark); break;
-        case Role::kClose: Close(id, mark, kind.kind); break;
+        case Role::kOpen:
+          Open(id, mark, kind.kind);
+          break;
+        case Role::kMiddle:
+          Middle(id, mark);
+          break;
+        case Role::kClose:
+          Close(id, mark, kind.kind);
+          break;
       }
     }
     while (!open_.empty()) DropTop({}, {});

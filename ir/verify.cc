@@ -80,8 +80,10 @@ class Verifier {
       case ExprOp::kCell:
       case ExprOp::kCellAt:
       case ExprOp::kSystem:
-      case ExprOp::kName: return true;
-      default: return Fail("{} is {}, which cannot be written", what, NameOf(m_.exprs[id].op));
+      case ExprOp::kName:
+        return true;
+      default:
+        return Fail("{} is {}, which cannot be written", what, NameOf(m_.exprs[id].op));
     }
   }
   bool Range(std::uint64_t begin, std::uint64_t count, std::size_t size, std::string_view what) {
@@ -111,7 +113,8 @@ class Verifier {
     for (const StringId name : m_.axis_names) {
       if (!String(name, "axis name", false)) return false;
     }
-    if (!Check(!m_.spellings.empty() && m_.spellings.size() <= 0x10000, "spellings need entry 0 and at most 65,536 rows")) {
+    if (!Check(!m_.spellings.empty() && m_.spellings.size() <= 0x10000,
+               "spellings need entry 0 and at most 65,536 rows")) {
       return false;
     }
     for (std::size_t i = 1; i < m_.spellings.size(); ++i) {
@@ -186,16 +189,24 @@ class Verifier {
     // An array of strings takes an index for the character besides.
     constexpr std::uint32_t kMostIndices = 4;
     switch (expr.op) {
-      case ExprOp::kLiteral: return Literal(expr);
-      case ExprOp::kText: return String(string, "text", false);
-      case ExprOp::kVacant: return true;
-      case ExprOp::kAxisName: return Axis(expr.a);
-      case ExprOp::kVariable: return Record(m_.variables, variable, "variable");
+      case ExprOp::kLiteral:
+        return Literal(expr);
+      case ExprOp::kText:
+        return String(string, "text", false);
+      case ExprOp::kVacant:
+        return true;
+      case ExprOp::kAxisName:
+        return Axis(expr.a);
+      case ExprOp::kVariable:
+        return Record(m_.variables, variable, "variable");
       case ExprOp::kElement:
         return Record(m_.variables, variable, "variable") && Children(id, expr, 1, kMostIndices);
-      case ExprOp::kCell: return Record(m_.spaces, space, "space");
-      case ExprOp::kCellAt: return Record(m_.spaces, space, "space") && Child(id, Raw(expr.a));
-      case ExprOp::kSystem: return Record(m_.systems, system, "system variable") && Children(id, expr, 0, kMostIndices);
+      case ExprOp::kCell:
+        return Record(m_.spaces, space, "space");
+      case ExprOp::kCellAt:
+        return Record(m_.spaces, space, "space") && Child(id, Raw(expr.a));
+      case ExprOp::kSystem:
+        return Record(m_.systems, system, "system variable") && Children(id, expr, 0, kMostIndices);
       case ExprOp::kName:
         return Check(!options_.names_resolved, "a name is left after resolution") && String(string, "name", false) &&
                Children(id, expr, 0, 0xFFFF);
@@ -206,7 +217,8 @@ class Verifier {
       }
       case ExprOp::kConvert:
         return Check(expr.type != Type::kNone, "conversion to no type") && Child(id, Raw(expr.a));
-      default: break;
+      default:
+        break;
     }
     if (!Child(id, Raw(expr.a))) return false;
     return OperandsOf(expr.op) != Operands::kBinary || Child(id, Raw(expr.b));
@@ -309,12 +321,13 @@ class Verifier {
     for (const VariableId id : m_.variables.Ids()) {
       const Variable& variable = m_.variables[id];
       At("variable", id.value);
-      const bool ok = String(variable.name, "name", false) && Enumerator(variable.type, "type") &&
-                      Enumerator(variable.scope, "scope") && Dimensions(variable.dimension_count, variable.dimensions) &&
-                      Record(m_.programs, variable.owner, "owner", true) && Operand(variable.initial, "initial value") &&
-                      Record(m_.assign_lists, variable.initial_list, "initial list", true) &&
-                      Operand(variable.lower_limit, "lower limit") && Operand(variable.upper_limit, "upper limit") &&
-                      File(variable.file);
+      const bool ok =
+          String(variable.name, "name", false) && Enumerator(variable.type, "type") &&
+          Enumerator(variable.scope, "scope") && Dimensions(variable.dimension_count, variable.dimensions) &&
+          Record(m_.programs, variable.owner, "owner", true) && Operand(variable.initial, "initial value") &&
+          Record(m_.assign_lists, variable.initial_list, "initial list", true) &&
+          Operand(variable.lower_limit, "lower limit") && Operand(variable.upper_limit, "upper limit") &&
+          File(variable.file);
       if (!ok) return false;
       const bool needs_owner = variable.scope == Scope::kLocal || variable.scope == Scope::kParameter;
       if (!Check(variable.owner.Valid() || !needs_owner, "a local of no program")) return false;
@@ -363,7 +376,8 @@ class Verifier {
     At({});
     std::ranges::sort(ranges, {}, [](const IdRange<BlockId>& range) { return range.begin; });
     for (std::size_t i = 1; i < ranges.size(); ++i) {
-      if (!Check(ranges[i - 1].begin + ranges[i - 1].count <= ranges[i].begin, "two programs share blocks")) return false;
+      if (!Check(ranges[i - 1].begin + ranges[i - 1].count <= ranges[i].begin, "two programs share blocks"))
+        return false;
     }
     return true;
   }
@@ -413,26 +427,46 @@ class Verifier {
   bool Index(const Word& word) {
     const std::uint8_t index = word.index;
     switch (ShapeOf(word.op).index) {
-      case IndexKind::kNone: return index == 0 || Fail("index {} has no meaning", index);
-      case IndexKind::kNumber: return true;
-      case IndexKind::kMotion: return Enumerator(static_cast<Motion>(index), "motion");
-      case IndexKind::kPlane: return Enumerator(static_cast<Plane>(index), "plane");
-      case IndexKind::kDistance: return Enumerator(static_cast<Distance>(index), "distance");
-      case IndexKind::kUnits: return Enumerator(static_cast<Units>(index), "units");
-      case IndexKind::kFeedMode: return Enumerator(static_cast<FeedMode>(index), "feed mode");
-      case IndexKind::kSpeedMode: return Enumerator(static_cast<SpeedMode>(index), "speed mode");
-      case IndexKind::kCutterComp: return Enumerator(static_cast<CutterComp>(index), "compensation");
-      case IndexKind::kDiameter: return Enumerator(static_cast<Diameter>(index), "diameter mode");
-      case IndexKind::kPathMode: return Enumerator(static_cast<PathMode>(index), "path mode");
-      case IndexKind::kReturnLevel: return Enumerator(static_cast<ReturnLevel>(index), "return level");
-      case IndexKind::kAxis: return Axis(index);
-      case IndexKind::kCoordinate: return index < 3 || Fail("coordinate {}", index);
-      case IndexKind::kChamfer: return Enumerator(static_cast<ChamferKind>(index), "kind of chamfer");
-      case IndexKind::kReference: return Enumerator(static_cast<ReferenceKind>(index), "kind of reference");
-      case IndexKind::kPole: return Enumerator(static_cast<PoleBase>(index), "base of the pole");
-      case IndexKind::kFrame: return Enumerator(static_cast<FrameOp>(index), "frame operation");
-      case IndexKind::kAlarm: return Enumerator(static_cast<AlarmKind>(index), "kind of alarm");
-      case IndexKind::kReturn: return Enumerator(static_cast<ReturnKind>(index), "kind of return");
+      case IndexKind::kNone:
+        return index == 0 || Fail("index {} has no meaning", index);
+      case IndexKind::kNumber:
+        return true;
+      case IndexKind::kMotion:
+        return Enumerator(static_cast<Motion>(index), "motion");
+      case IndexKind::kPlane:
+        return Enumerator(static_cast<Plane>(index), "plane");
+      case IndexKind::kDistance:
+        return Enumerator(static_cast<Distance>(index), "distance");
+      case IndexKind::kUnits:
+        return Enumerator(static_cast<Units>(index), "units");
+      case IndexKind::kFeedMode:
+        return Enumerator(static_cast<FeedMode>(index), "feed mode");
+      case IndexKind::kSpeedMode:
+        return Enumerator(static_cast<SpeedMode>(index), "speed mode");
+      case IndexKind::kCutterComp:
+        return Enumerator(static_cast<CutterComp>(index), "compensation");
+      case IndexKind::kDiameter:
+        return Enumerator(static_cast<Diameter>(index), "diameter mode");
+      case IndexKind::kPathMode:
+        return Enumerator(static_cast<PathMode>(index), "path mode");
+      case IndexKind::kReturnLevel:
+        return Enumerator(static_cast<ReturnLevel>(index), "return level");
+      case IndexKind::kAxis:
+        return Axis(index);
+      case IndexKind::kCoordinate:
+        return index < 3 || Fail("coordinate {}", index);
+      case IndexKind::kChamfer:
+        return Enumerator(static_cast<ChamferKind>(index), "kind of chamfer");
+      case IndexKind::kReference:
+        return Enumerator(static_cast<ReferenceKind>(index), "kind of reference");
+      case IndexKind::kPole:
+        return Enumerator(static_cast<PoleBase>(index), "base of the pole");
+      case IndexKind::kFrame:
+        return Enumerator(static_cast<FrameOp>(index), "frame operation");
+      case IndexKind::kAlarm:
+        return Enumerator(static_cast<AlarmKind>(index), "kind of alarm");
+      case IndexKind::kReturn:
+        return Enumerator(static_cast<ReturnKind>(index), "kind of return");
       case IndexKind::kMark:
         return index == 0 || IsStructureMark(static_cast<WordOp>(index)) || Fail("index {} is no mark", index);
     }
@@ -446,23 +480,34 @@ class Verifier {
     if (missing) return shape.extra_may_be_missing || refused || Fail("extra is missing");
     switch (shape.extra) {
       case ExtraKind::kNone:
-      case ExtraKind::kNumber: return true;
+      case ExtraKind::kNumber:
+        return true;
       case ExtraKind::kSpindleState:
         return word.extra < 256 ? Enumerator(static_cast<SpindleState>(word.extra), "spindle state")
                                 : Fail("spindle state {}", word.extra);
       case ExtraKind::kExpr:
         return word.op == WordOp::kAssign ? Place(word.Extra<ExprId>(), "what is written")
                                           : Operand(word.Extra<ExprId>(), "extra");
-      case ExtraKind::kVariable: return Record(m_.variables, word.Extra<VariableId>(), "variable");
-      case ExtraKind::kProgram: return Record(m_.programs, word.Extra<ProgramId>(), "program");
-      case ExtraKind::kExtern: return Record(m_.externs, word.Extra<ExternId>(), "extern");
-      case ExtraKind::kAssignList: return Record(m_.assign_lists, word.Extra<AssignListId>(), "assignment list");
-      case ExtraKind::kJump: return Record(m_.jumps, word.Extra<JumpId>(), "jump");
-      case ExtraKind::kSwitch: return Record(m_.switches, word.Extra<SwitchId>(), "switch");
-      case ExtraKind::kCall: return Record(m_.calls, word.Extra<CallId>(), "call");
-      case ExtraKind::kPart: return Record(m_.parts, word.Extra<PartId>(), "part");
-      case ExtraKind::kFor: return Record(m_.fors, word.Extra<ForId>(), "for");
-      case ExtraKind::kString: return String(word.Extra<StringId>(), "text", false);
+      case ExtraKind::kVariable:
+        return Record(m_.variables, word.Extra<VariableId>(), "variable");
+      case ExtraKind::kProgram:
+        return Record(m_.programs, word.Extra<ProgramId>(), "program");
+      case ExtraKind::kExtern:
+        return Record(m_.externs, word.Extra<ExternId>(), "extern");
+      case ExtraKind::kAssignList:
+        return Record(m_.assign_lists, word.Extra<AssignListId>(), "assignment list");
+      case ExtraKind::kJump:
+        return Record(m_.jumps, word.Extra<JumpId>(), "jump");
+      case ExtraKind::kSwitch:
+        return Record(m_.switches, word.Extra<SwitchId>(), "switch");
+      case ExtraKind::kCall:
+        return Record(m_.calls, word.Extra<CallId>(), "call");
+      case ExtraKind::kPart:
+        return Record(m_.parts, word.Extra<PartId>(), "part");
+      case ExtraKind::kFor:
+        return Record(m_.fors, word.Extra<ForId>(), "for");
+      case ExtraKind::kString:
+        return String(word.Extra<StringId>(), "text", false);
     }
     return true;
   }
@@ -485,12 +530,18 @@ class Verifier {
   }
   static bool Closes(WordOp opener, WordOp closer) {
     switch (opener) {
-      case WordOp::kIf: return closer == WordOp::kEndIf;
-      case WordOp::kWhile: return closer == WordOp::kEndWhile;
-      case WordOp::kLoop: return closer == WordOp::kEndLoop;
-      case WordOp::kRepeat: return closer == WordOp::kUntil;
-      case WordOp::kFor: return closer == WordOp::kEndFor;
-      default: return false;
+      case WordOp::kIf:
+        return closer == WordOp::kEndIf;
+      case WordOp::kWhile:
+        return closer == WordOp::kEndWhile;
+      case WordOp::kLoop:
+        return closer == WordOp::kEndLoop;
+      case WordOp::kRepeat:
+        return closer == WordOp::kUntil;
+      case WordOp::kFor:
+        return closer == WordOp::kEndFor;
+      default:
+        return false;
     }
   }
 
@@ -557,7 +608,8 @@ class Verifier {
 };
 
 std::string PlaceOf(const Module& module, BlockId block) {
-  if (!block.Valid() || !module.blocks.Contains(block) || !module.origins.Contains(module.blocks[block].origin)) return {};
+  if (!block.Valid() || !module.blocks.Contains(block) || !module.origins.Contains(module.blocks[block].origin))
+    return {};
   const Origin& origin = module.origins[module.blocks[block].origin];
   std::string_view name = "-";
   if (origin.file.value < module.file_names.size()) {

@@ -9,19 +9,43 @@ namespace ncport::ir {
 
 enum class IndexKind : std::uint8_t {
   kNone,  // always 0
-  kMotion, kPlane, kDistance, kUnits, kFeedMode, kSpeedMode, kCutterComp, kDiameter, kPathMode, kReturnLevel,
+  kMotion,
+  kPlane,
+  kDistance,
+  kUnits,
+  kFeedMode,
+  kSpeedMode,
+  kCutterComp,
+  kDiameter,
+  kPathMode,
+  kReturnLevel,
   kAxis,        // 0 to kMaxAxes - 1
   kCoordinate,  // I J K: 0 to 2
-  kChamfer, kReference, kPole, kFrame, kAlarm, kReturn,
-  kMark,        // WordOp of a structure mark; 0 = none
-  kNumber,      // spindle, extension, skip level, DO number; 0 = none
+  kChamfer,
+  kReference,
+  kPole,
+  kFrame,
+  kAlarm,
+  kReturn,
+  kMark,    // WordOp of a structure mark; 0 = none
+  kNumber,  // spindle, extension, skip level, DO number; 0 = none
 };
 
 enum class ExtraKind : std::uint8_t {
-  kNone,          // always Id::kNone
+  kNone,  // always Id::kNone
   kNumber,
   kSpindleState,
-  kExpr, kVariable, kProgram, kExtern, kAssignList, kJump, kSwitch, kCall, kPart, kFor, kString,
+  kExpr,
+  kVariable,
+  kProgram,
+  kExtern,
+  kAssignList,
+  kJump,
+  kSwitch,
+  kCall,
+  kPart,
+  kFor,
+  kString,
 };
 
 struct WordShape {

@@ -28,11 +28,16 @@ LabelTable::LabelTable(const Module& module, ProgramId program, bool ignore_case
 
 BlockId LabelTable::Find(const Target& target, BlockId from, Search search, std::uint16_t skip_levels) const {
   switch (target.kind) {
-    case TargetKind::kLabel: return FindLabel(module_.View(target.label), from, search, skip_levels);
-    case TargetKind::kNumber: return FindNumber(target.number, false, from, search, skip_levels);
-    case TargetKind::kMainNumber: return FindNumber(target.number, true, from, search, skip_levels);
-    case TargetKind::kProgramStart: return blocks_.Empty() ? BlockId{} : blocks_[0];
-    case TargetKind::kExpression: break;
+    case TargetKind::kLabel:
+      return FindLabel(module_.View(target.label), from, search, skip_levels);
+    case TargetKind::kNumber:
+      return FindNumber(target.number, false, from, search, skip_levels);
+    case TargetKind::kMainNumber:
+      return FindNumber(target.number, true, from, search, skip_levels);
+    case TargetKind::kProgramStart:
+      return blocks_.Empty() ? BlockId{} : blocks_[0];
+    case TargetKind::kExpression:
+      break;
   }
   if (!module_.exprs.Contains(target.expr)) return {};
   const Expr& expr = module_.exprs[target.expr];
@@ -118,11 +123,16 @@ BlockId LabelTable::Nearest(const Places* places, BlockId from, Search search, s
   };
   const auto either = [](BlockId first, auto second) { return first.Valid() ? first : second(); };
   switch (search) {
-    case Search::kForward: return forward();
-    case Search::kBackward: return backward();
-    case Search::kForwardThenBackward: return either(forward(), backward);
-    case Search::kForwardThenFromStart: return either(forward(), [&] { return downward(places->begin(), ahead); });
-    case Search::kBackwardThenForward: return either(backward(), forward);
+    case Search::kForward:
+      return forward();
+    case Search::kBackward:
+      return backward();
+    case Search::kForwardThenBackward:
+      return either(forward(), backward);
+    case Search::kForwardThenFromStart:
+      return either(forward(), [&] { return downward(places->begin(), ahead); });
+    case Search::kBackwardThenForward:
+      return either(backward(), forward);
   }
   return {};
 }

@@ -46,9 +46,13 @@ TEST_CASE("ir builder: a program of every comfortable form") {
   main.Block().Call(sub.Id(), {e.Vacant(), ExprId{}}, e.Number("2")).Finish();
   main.Block().Add(WordOp::kEndFor).Finish();
   main.Block().RepeatPart("L", "", {}).RepeatPart("L", "M", e.Number("3")).Finish();
-  main.Block().Jump("L", Search::kBackward, e.Binary(ExprOp::kLess, e.Cell(r, 1), e.Spelled("1EX1", 10), Expr::kTolerance)).Finish();
+  main.Block()
+      .Jump("L", Search::kBackward, e.Binary(ExprOp::kLess, e.Cell(r, 1), e.Spelled("1EX1", 10), Expr::kTolerance))
+      .Finish();
   main.Block().JumpToNumber(10, Search::kForward).Finish();
-  main.Block().Add(WordOp::kMessage, e.Binary(ExprOp::kConcat, e.Text("a"), e.Convert(e.Name("N"), Type::kString))).Finish();
+  main.Block()
+      .Add(WordOp::kMessage, e.Binary(ExprOp::kConcat, e.Text("a"), e.Convert(e.Name("N"), Type::kString)))
+      .Finish();
   main.Block().Axis(1, e.Function(Function::kSin, {e.Unary(ExprOp::kNegate, e.Number(".5"))})).Finish();
   main.Finish();
   diag::Sink sink;
@@ -90,8 +94,7 @@ TEST_CASE("ir builder: origins tell how a copy came about") {
   ProgramBuilder p(m, "P");
   BlockBuilder(m, copy).Flags(Block::kAdded).Finish();
   p.Finish();
-  CHECK(TextOf(m) ==
-        "ncport-ir 1\nfile p.mpf\nprogram P main\n  @p.mpf:20 turn 2 pass unroll via @p.mpf:3 added\n");
+  CHECK(TextOf(m) == "ncport-ir 1\nfile p.mpf\nprogram P main\n  @p.mpf:20 turn 2 pass unroll via @p.mpf:3 added\n");
 }
 
 TEST_CASE("ir builder: equal spellings share a row") {

@@ -171,9 +171,7 @@ TEST_CASE("ir dump: names find the nearest variable, and ordinals the others") {
       "  @- : define A; define A~1; define A~3\n"
       "program Q sub\n"
       "  @- : define A\n");
-  const auto type = [&](std::size_t word) {
-    return m.variables[m.words[WordId{word}].Extra<VariableId>()].type;
-  };
+  const auto type = [&](std::size_t word) { return m.variables[m.words[WordId{word}].Extra<VariableId>()].type; };
   CHECK(type(0) == Type::kReal);
   CHECK(type(1) == Type::kInt);
   CHECK(type(2) == Type::kBool);

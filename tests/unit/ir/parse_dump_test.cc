@@ -23,7 +23,8 @@ std::vector<std::string> Findings(std::string_view text) {
   CHECK(module.Ok() == sink.Empty());
   std::vector<std::string> findings;
   for (const auto& finding : sink.All()) {
-    findings.push_back(std::to_string(finding.at.line) + ":" + std::to_string(finding.at.begin) + " " + finding.message);
+    findings.push_back(std::to_string(finding.at.line) + ":" + std::to_string(finding.at.begin) + " " +
+                       finding.message);
   }
   return findings;
 }
@@ -56,7 +57,8 @@ TEST_CASE("ir parse_dump: each wrong line is one finding at its place") {
   CHECK(Findings("") == Texts{"1:0 expected ncport-ir 1, found nothing"});
   CHECK(Findings("program P main\n") == Texts{"1:0 expected 'ncport-ir 1', found 'program P main'"});
   CHECK(Findings("ncport-ir 1\nnonsense\n@- : motion linear\n") ==
-        Texts{"2:0 expected a record, found 'nonsense'", "3:0 expected a program before its blocks, found '@- : motion linear'"});
+        Texts{"2:0 expected a record, found 'nonsense'",
+              "3:0 expected a program before its blocks, found '@- : motion linear'"});
   CHECK(Findings("ncport-ir 1\nprogram P main\n@- : motion sideways\n@- : axis X\n@- : axis = 5\n") ==
         Texts{"3:12 expected a motion, found 'sideways'", "5:10 expected a name, found '= 5'"});
   CHECK(Findings("ncport-ir 1\nprogram P main extra\n") == Texts{"2:15 expected the end of the line, found 'extra'"});
@@ -132,7 +134,8 @@ TEST_CASE("ir parse_dump: depth is limited, length is not") {
 }
 
 TEST_CASE("ir parse_dump: parameters stand together") {
-  CHECK(Findings("ncport-ir 1\nprogram P main\nparam A real parameter\nvar B real local\nparam C real parameter\n").size() == 1);
+  CHECK(Findings("ncport-ir 1\nprogram P main\nparam A real parameter\nvar B real local\nparam C real parameter\n")
+            .size() == 1);
   CHECK(Findings("ncport-ir 1\nparam A real parameter\n").size() == 1);
   CHECK(Findings("ncport-ir 1\nvar A real local\n").size() == 1);  // a local of no program
 }
@@ -157,10 +160,18 @@ TEST_CASE("ir parse_dump: mutated dumps are read or refused, never followed into
     for (std::size_t edit = 0; edit < edits; ++edit) {
       const std::size_t at = below(text.size());
       switch (below(5)) {
-        case 0: text[at] = static_cast<char>(random()); break;
-        case 1: text.erase(at, 1 + below(6)); break;
-        case 2: text.insert(at, text.substr(below(text.size()), 1 + below(20))); break;
-        case 3: text[at] = "0123456789~-+@:;,()[]{}\"\\/ \n"[below(28)]; break;
+        case 0:
+          text[at] = static_cast<char>(random());
+          break;
+        case 1:
+          text.erase(at, 1 + below(6));
+          break;
+        case 2:
+          text.insert(at, text.substr(below(text.size()), 1 + below(20)));
+          break;
+        case 3:
+          text[at] = "0123456789~-+@:;,()[]{}\"\\/ \n"[below(28)];
+          break;
         default: {  // a line elsewhere
           const std::size_t begin = text.rfind('\n', at) + 1;
           const std::size_t end = std::min(text.find('\n', at), text.size() - 1) + 1;

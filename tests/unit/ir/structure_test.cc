@@ -115,8 +115,8 @@ TEST_CASE("ir structure: a second ELSE points at the first") {
 
 TEST_CASE("ir structure: crossed structures are one finding with both partners") {
   const Marks marks("if while end-if end-while .");
-  CHECK(marks.Messages() == Texts{"3: end-if stands inside while and ends it", "  2: while opens here",
-                                  "  4: its end-while stands here"});
+  CHECK(marks.Messages() ==
+        Texts{"3: end-if stands inside while and ends it", "  2: while opens here", "  4: its end-while stands here"});
   CHECK(marks.Refused(1));
   CHECK(marks.Refused(2));
   CHECK(marks.Refused(3));

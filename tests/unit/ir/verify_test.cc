@@ -160,7 +160,8 @@ TEST_CASE("ir verify: records") {
 TEST_CASE("ir verify: variables, origins, tables") {
   CHECK(Has(After([](Module& m) { m.variables[First<VariableId>()].name = {}; }), "name is missing"));
   CHECK(Has(After([](Module& m) { m.variables[First<VariableId>()].dimension_count = 4; }), "three dimensions"));
-  CHECK(Has(After([](Module& m) { m.variables[First<VariableId>()].dimensions[1] = 4; }), "dimension that is not there"));
+  CHECK(
+      Has(After([](Module& m) { m.variables[First<VariableId>()].dimensions[1] = 4; }), "dimension that is not there"));
   CHECK(Has(After([](Module& m) { m.variables[First<VariableId>()].scope = Scope::kLocal; }), "a local of no program"));
   CHECK(Has(After([](Module& m) { m.variables[First<VariableId>()].file.value = 9; }), "file 9 has no name"));
   CHECK(Has(After([](Module& m) { m.origins[First<OriginId>()].via = First<OriginId>(); }), "leads to one that"));
@@ -178,7 +179,8 @@ TEST_CASE("ir verify: programs and blocks") {
   CHECK(Has(After([&](Module& m) { program(m).parameters.begin = 0; }), "belongs to another program"));
   CHECK(Has(After([&](Module& m) { block(m, 1).words.count = kFar; }), "words"));
   CHECK(Has(After([&](Module& m) { block(m, 1).comments.begin = kFar; }), "comments"));
-  CHECK(Has(After([&](Module& m) { m.comments[block(m, 1).comments[1]].word = 6; }), "before a word that is not there"));
+  CHECK(
+      Has(After([&](Module& m) { m.comments[block(m, 1).comments[1]].word = 6; }), "before a word that is not there"));
   CHECK(Has(After([&](Module& m) { block(m, 1).label.value = kFar; }), "label is string"));
   CHECK(Has(After([&](Module& m) { block(m, 1).origin.value = kFar; }), "origin 1000000"));
   CHECK(Has(After([&](Module& m) { block(m, 1).skip_level = 20; }), "skip level over 15"));

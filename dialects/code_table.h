@@ -12,15 +12,15 @@ namespace ncport::dialects {
 
 /// One code word: what it means, the modal group it belongs to, and the card rule it comes from.
 struct CodeRow {
-  std::string_view text;                 // "G1", "DIAMON", upper case
+  std::string_view text;  // "G1", "DIAMON", upper case
   ir::WordOp op = ir::WordOp::kInert;
-  std::uint8_t index = 0;                // Word::index
-  std::uint32_t extra = Id<void>::kNone; // Word::extra
+  std::uint8_t index = 0;                 // Word::index
+  std::uint32_t extra = Id<void>::kNone;  // Word::extra
   ir::Phase phase = ir::Phase::kSetting;
-  std::uint8_t group = 0;                // group of the control; 0 = none. Two words of one group exclude each other
-  std::string_view rule;                 // "sinumerik-8.1"
-  bool alias = false;                    // read, never printed for this meaning (G01 forms, older words)
-  std::uint8_t flags = 0;                // Word::flags that the word carries
+  std::uint8_t group = 0;  // group of the control; 0 = none. Two words of one group exclude each other
+  std::string_view rule;   // "sinumerik-8.1"
+  bool alias = false;      // read, never printed for this meaning (G01 forms, older words)
+  std::uint8_t flags = 0;  // Word::flags that the word carries
 };
 
 /// Index over rows that live as long as the program. Building it with two rows of one text is a bug, and so are two
@@ -33,7 +33,8 @@ class CodeTable {
   /// Row of this text (upper case), or null.
   [[nodiscard]] const CodeRow* FindText(std::string_view text) const;
   /// Row to print for this meaning, or null.
-  [[nodiscard]] const CodeRow* FindMeaning(ir::WordOp op, std::uint8_t index, std::uint32_t extra = Id<void>::kNone) const;
+  [[nodiscard]] const CodeRow* FindMeaning(ir::WordOp op, std::uint8_t index,
+                                           std::uint32_t extra = Id<void>::kNone) const;
 
  private:
   std::span<const CodeRow> rows_;

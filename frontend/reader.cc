@@ -1,6 +1,9 @@
 #include "frontend/reader.h"
 
+#include <unordered_set>
+
 #include "frontend/sinumerik/reader.h"
+#include "frontend/sinumerik/resolve.h"
 
 namespace ncport::frontend {
 
@@ -14,10 +17,41 @@ Status ReadFile(const SourceFiles& files, FileId file, const dialects::Profile& 
     case dialects::Language::kFanuc:
     case dialects::Language::kNum:
     case dialects::Language::kLinuxCnc:
-    case dialects::Language::kIso: break;
+    case dialects::Language::kIso:
+      break;
   }
   sink.Report(diag::Code::kUnreadLanguage, {file, 0, 0, 0}, dialects::NameOf(profile.language));
   return Failure{};
+}
+
+std::vector<StringId> UnknownCallees(const ir::Module& module) {
+  std::vector<StringId> unknown;
+  std::unordered_set<std::uint32_t> seen;
+  for (const ir::Call& call : module.calls.All()) {
+    StringId name = call.name;
+    // CALL "name": the text is the name.
+    if (!name.Valid() && call.name_expr.Valid() && module.exprs[call.name_expr].op == ir::ExprOp::kText) {
+      name.value = module.exprs[call.name_expr].a;
+    }
+    if (!name.Valid() || call.program.Valid() || !seen.insert(name.value).second) continue;
+    const std::string_view text = module.View(name);
+    if (!module.FindProgram(text, true).Valid() && !sinumerik::FindProgram(module, text).Valid())
+      unknown.push_back(name);
+  }
+  return unknown;
+}
+
+void ResolveNames(SourceFiles& files, ir::Module& module, const dialects::Profile& profile, diag::Sink& sink) {
+  switch (profile.language) {
+    case dialects::Language::kSinumerik:
+      sinumerik::ResolveNames(files, module, profile, sink);
+      return;
+    case dialects::Language::kFanuc:
+    case dialects::Language::kNum:
+    case dialects::Language::kLinuxCnc:
+    case dialects::Language::kIso:
+      return;
+  }
 }
 
 }  // namespace ncport::frontend

@@ -1,5 +1,5 @@
-// Text of program files to the IR, for every language. One file after the other is read into one module; when the set is
-// complete, names are resolved.
+// Text of program files to the IR, for every language. One file after the other is read into one module; when the set
+// is complete, names are resolved.
 #pragma once
 
 #include <vector>
@@ -20,8 +20,8 @@ struct ReadOptions {
   bool library = false;
 };
 
-/// Appends the programs of one file, structure marks joined. Each wrong block is one finding, is marked kRefused and keeps
-/// its text; the blocks after it are read as usual. Fails when there was an error.
+/// Appends the programs of one file, structure marks joined. Each wrong block is one finding, is marked kRefused and
+/// keeps its text; the blocks after it are read as usual. Fails when there was an error.
 Status ReadFile(const SourceFiles& files, FileId file, const dialects::Profile& profile, const ReadOptions& options,
                 ir::Module& module, diag::Sink& sink);
 

@@ -44,9 +44,10 @@ constexpr AddressRow kAddresses[] = {
     {"FB", Op::kFeedOnce, 0, kPlainOnly, Extension::kNone, Phase::kSetting, "sinumerik-8.8"},
     {"S", Op::kSpeed, 0, kPlainOnly, Extension::kSpindle, Phase::kBefore, "sinumerik-8.8"},
     {"LIMS", Op::kSpeedLimit, 0, kPlainOnly, Extension::kSpindle, Phase::kBefore, "sinumerik-8.8"},
-    {"SPOS", Op::kSpindlePosition, 0, kLinearModes | kRotaryModes, Extension::kSpindle, Phase::kBefore, "sinumerik-8.8"},
-    {"SPOSA", Op::kSpindlePosition, 0, kLinearModes | kRotaryModes, Extension::kSpindle, Phase::kBefore, "sinumerik-8.8",
-     true},
+    {"SPOS", Op::kSpindlePosition, 0, kLinearModes | kRotaryModes, Extension::kSpindle, Phase::kBefore,
+     "sinumerik-8.8"},
+    {"SPOSA", Op::kSpindlePosition, 0, kLinearModes | kRotaryModes, Extension::kSpindle, Phase::kBefore,
+     "sinumerik-8.8", true},
     {"T", Op::kTool, 0, kQuickMode, Extension::kSpindle, Phase::kBefore, "sinumerik-8.8"},
     {"D", Op::kEdge, 0, kQuickMode, Extension::kNone, Phase::kBefore, "sinumerik-8.8"},
     {"H", Op::kAuxH, 0, kQuickMode, Extension::kNumber, Phase::kBefore, "sinumerik-8.10"},
@@ -117,8 +118,8 @@ constexpr TypeRow kTypes[] = {
 };
 
 constexpr std::string_view kAttributes[] = {
-    "SAVE",     "DISPLOF",    "DISPLON",    "ACTBLOCNO",  "SBLOF", "SBLON", "PREPRO", "ICYCON", "ICYCOF",
-    "IPTRLOCK", "IPTRUNLOCK", "DELAYFSTON", "DELAYFSTOF",
+    "SAVE",   "DISPLOF", "DISPLON",  "ACTBLOCNO",  "SBLOF",      "SBLON",      "PREPRO",
+    "ICYCON", "ICYCOF",  "IPTRLOCK", "IPTRUNLOCK", "DELAYFSTON", "DELAYFSTOF",
 };
 constexpr std::string_view kFlags[] = {"SYNR", "SYNW", "SYNRW", "INIPO", "INIRE", "INICF", "PRLOC"};
 constexpr std::string_view kValues[] = {"PHU", "APR", "APW", "APX", "APRP", "APWP", "APRB", "APWB"};

@@ -38,7 +38,7 @@ struct AddressRow {
   Extension extension = Extension::kNone;
   ir::Phase phase = ir::Phase::kMotion;
   std::string_view rule;
-  bool alias = false;     // read, never printed for this meaning
+  bool alias = false;  // read, never printed for this meaning
 };
 std::span<const AddressRow> Addresses();
 /// Row to print for this meaning; null = none. Inert rows are found by text only.
@@ -47,7 +47,7 @@ const AddressRow* FindAddress(ir::WordOp op, std::uint8_t index);
 struct FunctionRow {
   std::string_view text;
   ir::Function function;
-  ir::Type result;        // kAny: type of the arguments
+  ir::Type result;  // kAny: type of the arguments
   std::string_view rule;
 };
 std::span<const FunctionRow> Functions();
@@ -57,7 +57,7 @@ const FunctionRow* FindFunction(ir::Function function);
 struct ModeRow {
   std::string_view text;  // "AC"
   ir::ValueMode mode;
-  std::uint8_t needs;     // AddressModes bit that the address must have
+  std::uint8_t needs;  // AddressModes bit that the address must have
 };
 std::span<const ModeRow> ValueModes();
 

@@ -12,8 +12,8 @@ class ModuleMark {
   void Rollback(ir::Module& module) const;
 
  private:
-  std::size_t words_, exprs_, expr_items_, variables_, jumps_, switches_, switch_arms_, calls_, args_, parts_,
-      fors_, externs_, extern_params_, assign_lists_;
+  std::size_t words_, exprs_, expr_items_, variables_, jumps_, switches_, switch_arms_, calls_, args_, parts_, fors_,
+      externs_, extern_params_, assign_lists_;
 };
 
 }  // namespace ncport::frontend

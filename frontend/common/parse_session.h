@@ -2,6 +2,8 @@
 // parse; ANTLR's exceptions stay in here.
 #pragma once
 
+#include <antlr4-runtime.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -9,8 +11,6 @@
 #include <string>
 
 #include "frontend/common/token.h"
-
-#include <antlr4-runtime.h>
 
 namespace ncport::frontend {
 

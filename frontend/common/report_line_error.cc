@@ -1,8 +1,8 @@
 #include "frontend/common/report_line_error.h"
 
-#include <string>
-
 #include <fmt/format.h>
+
+#include <string>
 
 namespace ncport::frontend {
 
@@ -18,17 +18,33 @@ void ReportLineError(const LineError& error, std::string_view line, SourceRange 
   const std::string_view detail = error.detail != nullptr ? error.detail : "";
   diag::Diagnostic* finding = nullptr;
   switch (error.code) {
-    case Code::kExpectedText: finding = &sink.Report(error.code, at, detail, word); break;
-    case Code::kUnclosedString: finding = &sink.Report(error.code, at); break;
+    case Code::kExpectedText:
+      finding = &sink.Report(error.code, at, detail, word);
+      break;
+    case Code::kUnclosedString:
+      finding = &sink.Report(error.code, at);
+      break;
     case Code::kWordConflict:
       finding = &sink.Report(error.code, at, slice(error.other_begin, error.other_length), word);
       break;
-    case Code::kNestingLimit: finding = &sink.Report(error.code, at, detail, error.limit); break;
-    case Code::kBlockTooLong: finding = &sink.Report(error.code, at, line.size(), error.limit); break;
-    case Code::kTooManyWords: finding = &sink.Report(error.code, at, error.limit); break;
-    case Code::kNameTooLong: finding = &sink.Report(error.code, at, word, error.limit); break;
-    case Code::kOutOfRange: finding = &sink.Report(error.code, at, word, detail); break;
-    case Code::kTypeMismatch: finding = &sink.Report(error.code, at, detail, word); break;
+    case Code::kNestingLimit:
+      finding = &sink.Report(error.code, at, detail, error.limit);
+      break;
+    case Code::kBlockTooLong:
+      finding = &sink.Report(error.code, at, line.size(), error.limit);
+      break;
+    case Code::kTooManyWords:
+      finding = &sink.Report(error.code, at, error.limit);
+      break;
+    case Code::kNameTooLong:
+      finding = &sink.Report(error.code, at, word, error.limit);
+      break;
+    case Code::kOutOfRange:
+      finding = &sink.Report(error.code, at, word, detail);
+      break;
+    case Code::kTypeMismatch:
+      finding = &sink.Report(error.code, at, detail, word);
+      break;
     case Code::kArgumentCount: {
       const std::string range = error.other_begin == error.other_length
                                     ? fmt::format("{}", error.other_begin)
@@ -36,7 +52,9 @@ void ReportLineError(const LineError& error, std::string_view line, SourceRange 
       finding = &sink.Report(error.code, at, word, range, error.limit);
       break;
     }
-    default: finding = &sink.Report(error.code, at, word); break;
+    default:
+      finding = &sink.Report(error.code, at, word);
+      break;
   }
   if (error.help != nullptr) finding->help = error.help;
   if (error.code == Code::kSplitOperator) {

@@ -1,6 +1,6 @@
 // How a block parses depends only on the kinds of its tokens. The parse tree of a kind sequence is turned once into a
-// recipe, a flat list of actions with token numbers; replaying it on the tokens of a block makes the block's IR. Blocks of
-// a known shape need no parser.
+// recipe, a flat list of actions with token numbers; replaying it on the tokens of a block makes the block's IR. Blocks
+// of a known shape need no parser.
 #pragma once
 
 #include <cstdint>
@@ -24,9 +24,9 @@ struct Action {
 /// What the parser found wrong with a shape.
 struct ShapeError {
   diag::Code code{};
-  std::uint16_t token = 0;          // may be the number of tokens: the end of the block
-  const char* help = nullptr;       // static text
-  const char* expected = nullptr;   // static text, of ExpectedText
+  std::uint16_t token = 0;         // may be the number of tokens: the end of the block
+  const char* help = nullptr;      // static text
+  const char* expected = nullptr;  // static text, of ExpectedText
 };
 
 /// Recipe of one shape, or why it has none.
@@ -62,7 +62,7 @@ class ShapeCache {
 
   std::vector<Shape> shapes_;
   std::vector<std::uint16_t> kinds_;
-  std::vector<std::uint32_t> slots_;   // power of two
+  std::vector<std::uint32_t> slots_;  // power of two
   std::uint64_t last_hash_ = 0;
 };
 

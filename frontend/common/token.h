@@ -12,13 +12,13 @@ namespace ncport::frontend {
 
 struct Token {
   std::uint16_t kind = 0;
-  std::uint8_t sub = 0;          // small number of the kind: axis, extension, level, operator
-  std::uint8_t digits = 0;       // of a code as written (G01: 2), of an N word
-  std::uint32_t offset = 0;      // bytes from the start of the line
+  std::uint8_t sub = 0;      // small number of the kind: axis, extension, level, operator
+  std::uint8_t digits = 0;   // of a code as written (G01: 2), of an N word
+  std::uint32_t offset = 0;  // bytes from the start of the line
   std::uint32_t length = 0;
-  std::uint32_t data = 0;        // row of a table, or StringId::value
+  std::uint32_t data = 0;  // row of a table, or StringId::value
   double number = 0;
-  ir::NumberFormat format;       // of `number`
+  ir::NumberFormat format;  // of `number`
 
   [[nodiscard]] StringId Text() const {
     StringId id;

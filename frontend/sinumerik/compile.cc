@@ -2,12 +2,11 @@
 
 #include <vector>
 
+#include "SinumerikParser.h"
 #include "base/result.h"
 #include "frontend/sinumerik/recipe.h"
 #include "frontend/sinumerik/token_kind.h"
 #include "ir/nodes.h"
-
-#include "SinumerikParser.h"
 
 namespace ncport::frontend::sinumerik {
 
@@ -28,37 +27,63 @@ std::uint16_t Last(Rule* rule) {
 
 ExprOp BinaryOp(std::size_t kind) {
   switch (kind) {
-    case P::Star: return ExprOp::kMultiply;
-    case P::Slash: return ExprOp::kDivide;
-    case P::DivideInteger: return ExprOp::kDivideInteger;
-    case P::Modulo: return ExprOp::kModulo;
-    case P::Plus: return ExprOp::kAdd;
-    case P::Minus: return ExprOp::kSubtract;
-    case P::BitAnd: return ExprOp::kBitAnd;
-    case P::BitXor: return ExprOp::kBitXor;
-    case P::BitOr: return ExprOp::kBitOr;
-    case P::And: return ExprOp::kAnd;
-    case P::Xor: return ExprOp::kXor;
-    case P::Or: return ExprOp::kOr;
-    case P::Concat: return ExprOp::kConcat;
-    case P::EqualTo: return ExprOp::kEqual;
-    case P::NotEqual: return ExprOp::kNotEqual;
-    case P::Less: return ExprOp::kLess;
-    case P::LessEqual: return ExprOp::kLessEqual;
-    case P::Greater: return ExprOp::kGreater;
-    case P::GreaterEqual: return ExprOp::kGreaterEqual;
-    default: NCPORT_BUG("token kind {} is no binary operator", kind);
+    case P::Star:
+      return ExprOp::kMultiply;
+    case P::Slash:
+      return ExprOp::kDivide;
+    case P::DivideInteger:
+      return ExprOp::kDivideInteger;
+    case P::Modulo:
+      return ExprOp::kModulo;
+    case P::Plus:
+      return ExprOp::kAdd;
+    case P::Minus:
+      return ExprOp::kSubtract;
+    case P::BitAnd:
+      return ExprOp::kBitAnd;
+    case P::BitXor:
+      return ExprOp::kBitXor;
+    case P::BitOr:
+      return ExprOp::kBitOr;
+    case P::And:
+      return ExprOp::kAnd;
+    case P::Xor:
+      return ExprOp::kXor;
+    case P::Or:
+      return ExprOp::kOr;
+    case P::Concat:
+      return ExprOp::kConcat;
+    case P::EqualTo:
+      return ExprOp::kEqual;
+    case P::NotEqual:
+      return ExprOp::kNotEqual;
+    case P::Less:
+      return ExprOp::kLess;
+    case P::LessEqual:
+      return ExprOp::kLessEqual;
+    case P::Greater:
+      return ExprOp::kGreater;
+    case P::GreaterEqual:
+      return ExprOp::kGreaterEqual;
+    default:
+      NCPORT_BUG("token kind {} is no binary operator", kind);
   }
 }
 
 std::uint8_t UnaryOp(std::size_t kind) {
   switch (kind) {
-    case P::Not: return static_cast<std::uint8_t>(ExprOp::kNot);
-    case P::BitNot: return static_cast<std::uint8_t>(ExprOp::kBitNot);
-    case P::Minus: return static_cast<std::uint8_t>(ExprOp::kNegate);
-    case P::Plus: return static_cast<std::uint8_t>(ExprOp::kPlus);
-    case P::Concat: return kToText;
-    default: NCPORT_BUG("token kind {} is no unary operator", kind);
+    case P::Not:
+      return static_cast<std::uint8_t>(ExprOp::kNot);
+    case P::BitNot:
+      return static_cast<std::uint8_t>(ExprOp::kBitNot);
+    case P::Minus:
+      return static_cast<std::uint8_t>(ExprOp::kNegate);
+    case P::Plus:
+      return static_cast<std::uint8_t>(ExprOp::kPlus);
+    case P::Concat:
+      return kToText;
+    default:
+      NCPORT_BUG("token kind {} is no unary operator", kind);
   }
 }
 
@@ -87,8 +112,7 @@ class Compiler {
 
  private:
   void Add(Step step, std::uint16_t first, std::uint16_t last, std::uint8_t arg = 0, std::size_t count = 0) {
-    recipe_.actions.push_back(
-        {static_cast<std::uint8_t>(step), arg, static_cast<std::uint16_t>(count), first, last});
+    recipe_.actions.push_back({static_cast<std::uint8_t>(step), arg, static_cast<std::uint16_t>(count), first, last});
   }
   void Add(Step step, std::uint16_t token) { Add(step, token, token); }
   void Add(Step step, Rule* rule, std::uint8_t arg = 0, std::size_t count = 0) {
@@ -245,17 +269,38 @@ class Compiler {
     for (auto* value : mark->expression()) Expression(value);
     WordOp op = WordOp::kIf;
     switch (mark->getStart()->getType()) {
-      case P::If: op = WordOp::kIf; break;
-      case P::Else: op = WordOp::kElse; break;
-      case P::EndIf: op = WordOp::kEndIf; break;
-      case P::While: op = WordOp::kWhile; break;
-      case P::EndWhile: op = WordOp::kEndWhile; break;
-      case P::EndFor: op = WordOp::kEndFor; break;
-      case P::Loop: op = WordOp::kLoop; break;
-      case P::EndLoop: op = WordOp::kEndLoop; break;
-      case P::Repeat: op = WordOp::kRepeat; break;
-      case P::Until: op = WordOp::kUntil; break;
-      default: NCPORT_BUG("a structure of the grammar has no recipe");
+      case P::If:
+        op = WordOp::kIf;
+        break;
+      case P::Else:
+        op = WordOp::kElse;
+        break;
+      case P::EndIf:
+        op = WordOp::kEndIf;
+        break;
+      case P::While:
+        op = WordOp::kWhile;
+        break;
+      case P::EndWhile:
+        op = WordOp::kEndWhile;
+        break;
+      case P::EndFor:
+        op = WordOp::kEndFor;
+        break;
+      case P::Loop:
+        op = WordOp::kLoop;
+        break;
+      case P::EndLoop:
+        op = WordOp::kEndLoop;
+        break;
+      case P::Repeat:
+        op = WordOp::kRepeat;
+        break;
+      case P::Until:
+        op = WordOp::kUntil;
+        break;
+      default:
+        NCPORT_BUG("a structure of the grammar has no recipe");
     }
     Add(Step::kMark, mark, static_cast<std::uint8_t>(op), mark->expression().size());
   }
@@ -454,10 +499,18 @@ class Compiler {
       Add(Step::kFunction, primary, 0, function->expression().size());
     } else {
       switch (primary->getStart()->getType()) {
-        case P::Number: Add(Step::kNumber, First(primary)); break;
-        case P::Text: Add(Step::kText, First(primary)); break;
-        case P::Boolean: Add(Step::kBoolean, First(primary)); break;
-        default: Add(Step::kAxisName, First(primary)); break;
+        case P::Number:
+          Add(Step::kNumber, First(primary));
+          break;
+        case P::Text:
+          Add(Step::kText, First(primary));
+          break;
+        case P::Boolean:
+          Add(Step::kBoolean, First(primary));
+          break;
+        default:
+          Add(Step::kAxisName, First(primary));
+          break;
       }
     }
   }

@@ -58,13 +58,18 @@ void Lowering::ReplayHead(std::span<const Token> tokens, ir::Block& block) {
         block.skip_level = token.digits != 0 ? token.sub : static_cast<std::uint8_t>(profile_.skip.Or(0));
         if (token.digits != 0) block.flags |= ir::Block::kSkipDigit;
         break;
-      case TokenKind::kMainNumber: block.flags |= ir::Block::kMainBlock; [[fallthrough]];
+      case TokenKind::kMainNumber:
+        block.flags |= ir::Block::kMainBlock;
+        [[fallthrough]];
       case TokenKind::kBlockNumber:
         block.number = static_cast<std::uint32_t>(token.number);
         block.number_digits = token.digits;
         break;
-      case TokenKind::kLabel: block.label = token.Text(); break;
-      default: return;
+      case TokenKind::kLabel:
+        block.label = token.Text();
+        break;
+      default:
+        return;
     }
   }
 }

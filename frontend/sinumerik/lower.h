@@ -81,6 +81,7 @@ class Lowering {
 
   // Definitions (lower_definitions.cc).
   bool Declare(const Action& action);
+  void ClearDimensions();
   bool CheckName(const Token& token);
   bool TakeInitializer(const Action& action, ir::Variable& variable);
   bool EndProgramHeader(const Action& action);
@@ -113,9 +114,9 @@ class Lowering {
   ir::Block* block_ = nullptr;
   std::uint32_t first_word_ = 0;
   const Token* mode_ = nullptr;
-  const Token* dwell_ = nullptr;       // G4
-  std::uint64_t groups_ = 0;           // G groups seen
-  std::uint64_t addresses_ = 0;        // rows of Addresses() seen
+  const Token* dwell_ = nullptr;  // G4
+  std::uint64_t groups_ = 0;      // G groups seen
+  std::uint64_t addresses_ = 0;   // rows of Addresses() seen
   std::uint32_t axes_ = 0;
   std::vector<ir::ExprId> values_;
   std::vector<ir::Target> targets_;
@@ -130,8 +131,8 @@ class Lowering {
     std::uint32_t dimensions[3] = {0, 0, 0};
     std::uint8_t dimension_count = 0;
     std::uint8_t names = 0;
-    StringId name;                     // PROC, EXTERN
-    std::uint32_t first = 0;           // first parameter
+    StringId name;            // PROC, EXTERN
+    std::uint32_t first = 0;  // first parameter
     bool saves = false;
   };
   Definition definition_;
@@ -139,9 +140,9 @@ class Lowering {
   // Caches over all blocks: numbers of the module's records.
   std::vector<std::uint16_t> code_spellings_;
   std::vector<std::uint16_t> address_spellings_;
-  std::unordered_map<std::uint64_t, std::uint16_t> spellings_;     // text and rule
-  std::unordered_map<std::uint32_t, std::uint16_t> literal_texts_; // StringId -> index
-  std::unordered_map<std::uint32_t, ir::SystemId> systems_;        // StringId of the name in upper case
+  std::unordered_map<std::uint64_t, std::uint16_t> spellings_;      // text and rule
+  std::unordered_map<std::uint32_t, std::uint16_t> literal_texts_;  // StringId -> index
+  std::unordered_map<std::uint32_t, ir::SystemId> systems_;         // StringId of the name in upper case
   ir::SpaceId spaces_[2];
 };
 

@@ -13,8 +13,8 @@ using ir::WordOp;
 
 namespace {
 
-constexpr std::uint32_t kMaxDimension = 1U << 20U;   // cells of one array; the control has far fewer
-constexpr std::uint32_t kMaxText = 200;              // card 2.5
+constexpr std::uint32_t kMaxDimension = 1U << 20U;  // cells of one array; the control has far fewer
+constexpr std::uint32_t kMaxText = 200;             // card 2.5
 
 }  // namespace
 
@@ -23,6 +23,11 @@ void Lowering::NeedsDefinitionSection(const Token& token) {
   if (state_.definitions_open) return;
   late_ = true;
   late_error_ = {.code = Code::kLateDefinition, .begin = token.offset, .length = token.length};
+}
+
+void Lowering::ClearDimensions() {
+  definition_.dimension_count = 0;
+  for (std::uint32_t& dimension : definition_.dimensions) dimension = 0;
 }
 
 bool Lowering::CheckName(const Token& token) {
@@ -98,7 +103,7 @@ bool Lowering::Declare(const Action& action) {
     if (!definition_.attributes.empty()) word.spelling = SpellingOf(definition_.attributes, "sinumerik-3.2");
   }
   ++definition_.names;
-  definition_.dimension_count = 0;
+  ClearDimensions();
   return true;
 }
 
@@ -144,7 +149,7 @@ bool Lowering::DoDefinition(const Action& action) {
     case Step::kDef:
       definition_ = {};
       definition_.scoped = state_.definition_file;
-      definition_.scope = state_.definition_file ? ir::Scope::kGlobal
+      definition_.scope = state_.definition_file                                            ? ir::Scope::kGlobal
                           : module_.programs[state_.program].kind == ir::ProgramKind::kMain ? ir::Scope::kProgram
                                                                                             : ir::Scope::kLocal;
       return true;
@@ -152,15 +157,23 @@ bool Lowering::DoDefinition(const Action& action) {
       definition_.scope = static_cast<ir::Scope>(token.sub);
       definition_.scoped = true;
       return true;
-    case Step::kDefTextDrop: values_.pop_back(); [[fallthrough]];
-    case Step::kDefText: add_text(TextOf(action)); return true;
-    case Step::kLowerLimit: definition_.lower = Pop(); return true;
-    case Step::kUpperLimit: definition_.upper = Pop(); return true;
+    case Step::kDefTextDrop:
+      values_.pop_back();
+      [[fallthrough]];
+    case Step::kDefText:
+      add_text(TextOf(action));
+      return true;
+    case Step::kLowerLimit:
+      definition_.lower = Pop();
+      return true;
+    case Step::kUpperLimit:
+      definition_.upper = Pop();
+      return true;
     case Step::kType:
     case Step::kStringType:
       definition_.type = static_cast<Type>(token.sub);
       definition_.string_length = 0;
-      definition_.dimension_count = 0;
+      ClearDimensions();
       if (action.arg != 0 && !LiteralInt(Pop(), kMaxText, definition_.string_length)) {
         return Fail(Code::kOutOfRange, token, nullptr, "the length of a STRING: a constant up to 200");
       }
@@ -171,18 +184,19 @@ bool Lowering::DoDefinition(const Action& action) {
       if (size.Valid() && (!LiteralInt(size, kMaxDimension, count) || count == 0)) {
         return Fail(Code::kOutOfRange, token, nullptr, "the size of an array: a constant from 1");
       }
-      if (definition_.dimension_count == 3) return Fail(Code::kUnexpectedText, token, "arrays have up to three dimensions");
+      if (definition_.dimension_count == 3)
+        return Fail(Code::kUnexpectedText, token, "arrays have up to three dimensions");
       definition_.dimensions[definition_.dimension_count++] = count;
       return true;
     }
-    case Step::kDeclare: return Declare(action);
+    case Step::kDeclare:
+      return Declare(action);
     case Step::kProgram:
     case Step::kExtern:
       definition_ = {};
       definition_.name = token.Text();
-      definition_.first = static_cast<std::uint32_t>(static_cast<Step>(action.op) == Step::kProgram
-                                                         ? module_.variables.Size()
-                                                         : module_.extern_params.size());
+      definition_.first = static_cast<std::uint32_t>(
+          static_cast<Step>(action.op) == Step::kProgram ? module_.variables.Size() : module_.extern_params.size());
       return true;
     case Step::kParameter: {
       const ExprId initial = (action.arg & 2U) != 0 ? Pop() : ExprId{};
@@ -208,7 +222,8 @@ bool Lowering::DoDefinition(const Action& action) {
       add_text(TextOf(token));
       if (dialects::sinumerik::ProgramAttributes()[token.data] == "SAVE") definition_.saves = true;
       return true;
-    case Step::kProgramEnd: return EndProgramHeader(action);
+    case Step::kProgramEnd:
+      return EndProgramHeader(action);
     case Step::kExternParameter: {
       ir::ExternParam parameter;
       parameter.type = definition_.type;
@@ -229,8 +244,10 @@ bool Lowering::DoDefinition(const Action& action) {
       AddWord(WordOp::kExtern, action.first, action.last).extra = id.value;
       return true;
     }
-    case Step::kMacro: return AddMacro(action);
-    default: NCPORT_BUG("step {} is no definition", action.op);
+    case Step::kMacro:
+      return AddMacro(action);
+    default:
+      NCPORT_BUG("step {} is no definition", action.op);
   }
 }
 

@@ -43,7 +43,8 @@ bool Lowering::IsLiteral(ExprId id) const { return id.Valid() && module_.exprs[i
 bool Lowering::LiteralInt(ExprId id, std::uint32_t most, std::uint32_t& value) const {
   if (!IsLiteral(id)) return false;
   const double number = module_.exprs[id].number;
-  if (!(number >= 0) || number > most || number != static_cast<double>(static_cast<std::uint32_t>(number))) return false;
+  if (!(number >= 0) || number > most || number != static_cast<double>(static_cast<std::uint32_t>(number)))
+    return false;
   value = static_cast<std::uint32_t>(number);
   return true;
 }
@@ -114,7 +115,9 @@ bool Lowering::DoValue(const Action& action) {
   const Token& token = At(action.first);
   Expr expr;
   switch (static_cast<Step>(action.op)) {
-    case Step::kNumber: values_.push_back(Literal(token)); return true;
+    case Step::kNumber:
+      values_.push_back(Literal(token));
+      return true;
     case Step::kText:
       expr.op = ExprOp::kText;
       expr.type = Type::kString;
@@ -169,7 +172,9 @@ bool Lowering::DoValue(const Action& action) {
       PushExpr(expr, token.offset, At(action.last).End() - token.offset);
       return true;
     }
-    case Step::kName: List(ExprOp::kName, token.data, action.count, action); return true;
+    case Step::kName:
+      List(ExprOp::kName, token.data, action.count, action);
+      return true;
     case Step::kSystem: {
       const ir::SystemId system = SystemOf(token);
       if (!system.Valid()) return Fail(Code::kUnknownName, token);
@@ -215,8 +220,11 @@ bool Lowering::DoValue(const Action& action) {
       List(ExprOp::kFunction, static_cast<std::uint32_t>(row.function), action.count, action, row.result);
       return true;
     }
-    case Step::kMissing: values_.emplace_back(); return true;
-    default: NCPORT_BUG("step {} is no value", action.op);
+    case Step::kMissing:
+      values_.emplace_back();
+      return true;
+    default:
+      NCPORT_BUG("step {} is no value", action.op);
   }
 }
 

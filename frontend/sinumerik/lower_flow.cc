@@ -34,8 +34,8 @@ IdRange<ir::ArgId> Lowering::TakeArguments(std::uint16_t count) {
 
 namespace {
 
-// Corrections and card 8.11: which numbers stop the program. A number of another range, or one that is computed, is taken
-// to stop: the run ends where the control might go on, never the other way.
+// Corrections and card 8.11: which numbers stop the program. A number of another range, or one that is computed, is
+// taken to stop: the run ends where the control might go on, never the other way.
 ir::AlarmKind KindOf(double number) {
   const bool shows = (number >= 62000 && number < 63000) || (number >= 66000 && number < 68000);
   return shows ? ir::AlarmKind::kShows : ir::AlarmKind::kStops;
@@ -116,19 +116,22 @@ bool Lowering::DoFlow(const Action& action) {
       return true;
     case Step::kWorkpiece: {
       ir::Call call;
-      call.name = module_.strings.Intern("WORKPIECE");
       call.has_brackets = true;
       call.args = TakeArguments(action.count);
       const ir::CallId id = module_.calls.Add(call);
       AddWord(WordOp::kWorkpiece, action.first, action.last).extra = id.value;
       return true;
     }
-    case Step::kInertTextDrop: values_.resize(values_.size() - action.count); return AddInertText(action);
-    case Step::kInertText: return AddInertText(action);
+    case Step::kInertTextDrop:
+      values_.resize(values_.size() - action.count);
+      return AddInertText(action);
+    case Step::kInertText:
+      return AddInertText(action);
     case Step::kReturn: {
       for (std::uint16_t i = 1; i < action.count; ++i) {
         if (Pop().Valid()) {
-          return Fail(Code::kNotSupported, token, "RET with an offset or levels; RET and RET(\"LABEL\") are translated");
+          return Fail(Code::kNotSupported, token,
+                      "RET with an offset or levels; RET and RET(\"LABEL\") are translated");
         }
       }
       const ExprId target_value = action.count != 0 ? Pop() : ExprId{};
@@ -155,7 +158,8 @@ bool Lowering::DoFlow(const Action& action) {
       word.extra = id.value;
       return true;
     }
-    default: NCPORT_BUG("step {} is no flow", action.op);
+    default:
+      NCPORT_BUG("step {} is no flow", action.op);
   }
 }
 
@@ -229,7 +233,8 @@ bool Lowering::DoCall(const Action& action) {
       word.extra = id.value;
       return true;
     }
-    default: NCPORT_BUG("step {} is no call", action.op);
+    default:
+      NCPORT_BUG("step {} is no call", action.op);
   }
   const ir::CallId id = module_.calls.Add(call);
   AddWord(WordOp::kCall, action.first, action.last).extra = id.value;

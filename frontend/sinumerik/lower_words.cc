@@ -178,7 +178,8 @@ bool Lowering::AddAddress(const Action& action) {
   if (row.extension != words::Extension::kNone) word.index = token.sub;
   if (index.Valid()) {
     std::uint32_t number = 0;
-    if (row.extension == words::Extension::kNone || token.sub != 0) return Fail(Code::kUnexpectedText, At(action.first + 1U));
+    if (row.extension == words::Extension::kNone || token.sub != 0)
+      return Fail(Code::kUnexpectedText, At(action.first + 1U));
     if (!LiteralInt(index, 99, number)) {
       return Fail(Code::kNotSupported, token, "the number in the brackets must be a constant");
     }
@@ -197,12 +198,14 @@ bool Lowering::AddComputedM(const Action& action) {
     return Fail(Code::kNotSupported, token, "the number in the brackets must be a constant");
   }
   std::uint32_t number = 0;
-  const std::uint32_t row_number = mode_ == nullptr && LiteralInt(value, 99, number) ? FindMCode(number) : kAuxiliaryRow;
+  const std::uint32_t row_number =
+      mode_ == nullptr && LiteralInt(value, 99, number) ? FindMCode(number) : kAuxiliaryRow;
   if (row_number != kAuxiliaryRow) {
     const auto& row = words::Codes().Rows()[row_number];
     if (extension == 0 || row.op == WordOp::kSpindle || row.op == WordOp::kAux) {
       Word& word = AddWord(row.op, action.first, action.last);
-      word.index = row.op == WordOp::kSpindle || row.op == WordOp::kAux ? static_cast<std::uint8_t>(extension) : row.index;
+      word.index =
+          row.op == WordOp::kSpindle || row.op == WordOp::kAux ? static_cast<std::uint8_t>(extension) : row.index;
       word.extra = row.extra;
       word.phase = row.phase;
       word.flags = Word::kEqualSign;
@@ -234,10 +237,15 @@ bool Lowering::DoWord(const Action& action) {
       // The head was filled before: a refused block has one too.
       return true;
     }
-    case Step::kCode: return AddCode(token);
-    case Step::kConstant: return AddConstant(token);
-    case Step::kMode: mode_ = &token; return true;
-    case Step::kAxis: return AddAxis(action);
+    case Step::kCode:
+      return AddCode(token);
+    case Step::kConstant:
+      return AddConstant(token);
+    case Step::kMode:
+      mode_ = &token;
+      return true;
+    case Step::kAxis:
+      return AddAxis(action);
     case Step::kAxisAt: {
       const ExprId value = Pop();
       const ExprId axis = Pop();
@@ -247,14 +255,16 @@ bool Lowering::DoWord(const Action& action) {
       word.flags = Word::kEqualSign;
       return TakeMode(word, words::kLinearModes | words::kRotaryModes | words::kDiameterModes);
     }
-    case Step::kAddress: return AddAddress(action);
+    case Step::kAddress:
+      return AddAddress(action);
     case Step::kComputedG: {
       Word& word = AddWord(WordOp::kComputedG, action.first, action.last);
       word.value = Pop();
       word.flags = Word::kEqualSign;
       return true;
     }
-    case Step::kComputedM: return AddComputedM(action);
+    case Step::kComputedM:
+      return AddComputedM(action);
     case Step::kAssign: {
       const ExprId value = Pop();
       const ExprId place = Pop();
@@ -278,7 +288,8 @@ bool Lowering::DoWord(const Action& action) {
       AddWord(WordOp::kAssignList, action.first, action.last).extra = id.value;
       return true;
     }
-    default: NCPORT_BUG("step {} is no word", action.op);
+    default:
+      NCPORT_BUG("step {} is no word", action.op);
   }
 }
 

@@ -1,18 +1,16 @@
 // The header of the runtime stands last: EOF is a macro of the C library until ANTLR takes it away.
 #include "frontend/sinumerik/parser.h"
 
+#include "SinumerikParser.h"
+#include "frontend/common/parse_session.h"
 #include "frontend/sinumerik/compile.h"
 #include "frontend/sinumerik/token_kind.h"
-
-#include "frontend/common/parse_session.h"
-
-#include "SinumerikParser.h"
 
 namespace ncport::frontend::sinumerik {
 
 using Parser = grammar::sinumerik::SinumerikParser;
 
-#define NCPORT_TOKEN(Name)                                                                       \
+#define NCPORT_TOKEN(Name)                                                                              \
   static_assert(static_cast<std::size_t>(TokenKind::k##Name) == static_cast<std::size_t>(Parser::Name), \
                 "token_kinds.def and the grammar differ at " #Name);
 #include "frontend/sinumerik/token_kinds.def"
@@ -27,18 +25,30 @@ namespace {
 // What a person would call the only kind that fits.
 const char* NameOfKind(std::size_t kind) {
   switch (static_cast<TokenKind>(kind)) {
-    case TokenKind::kEquals: return "=";
-    case TokenKind::kLeftParen: return "(";
-    case TokenKind::kRightParen: return ")";
-    case TokenKind::kLeftBracket: return "[";
-    case TokenKind::kRightBracket: return "]";
-    case TokenKind::kComma: return ",";
-    case TokenKind::kTo: return "TO";
-    case TokenKind::kOf: return "OF";
-    case TokenKind::kAs: return "AS";
-    case TokenKind::kName: return "a name";
-    case TokenKind::kPath: return "a path";
-    default: return kind == antlr4::Token::EOF ? "the end of the block" : nullptr;
+    case TokenKind::kEquals:
+      return "=";
+    case TokenKind::kLeftParen:
+      return "(";
+    case TokenKind::kRightParen:
+      return ")";
+    case TokenKind::kLeftBracket:
+      return "[";
+    case TokenKind::kRightBracket:
+      return "]";
+    case TokenKind::kComma:
+      return ",";
+    case TokenKind::kTo:
+      return "TO";
+    case TokenKind::kOf:
+      return "OF";
+    case TokenKind::kAs:
+      return "AS";
+    case TokenKind::kName:
+      return "a name";
+    case TokenKind::kPath:
+      return "a path";
+    default:
+      return kind == antlr4::Token::EOF ? "the end of the block" : nullptr;
   }
 }
 
@@ -54,14 +64,19 @@ Recipe BlockParser::Parse(std::span<const Token> tokens) {
     recipe.error.token = static_cast<std::uint16_t>(strategy.ErrorToken());
     recipe.error.expected = NameOfKind(strategy.OnlyExpected());
     recipe.error.code = recipe.error.expected != nullptr ? diag::Code::kExpectedText : diag::Code::kUnexpectedText;
-    // Why words that look right do not fit where they stand.
-    if (recipe.error.token < tokens.size()) {
-      switch (static_cast<TokenKind>(tokens[recipe.error.token].kind)) {
-        case TokenKind::kName:
-        case TokenKind::kSubName: recipe.error.help = "a subprogram call stands alone in its block"; break;
-        case TokenKind::kBlockNumber: recipe.error.help = "the block number stands at the start of the block"; break;
-        default: break;
-      }
+    // A name in the middle of a block that no `=` follows is a call that does not stand alone, or a word nobody knows.
+    const auto kind_at = [&](std::size_t token) {
+      return token < tokens.size() ? static_cast<TokenKind>(tokens[token].kind) : TokenKind::kNone;
+    };
+    const std::size_t at = recipe.error.token;
+    const bool call_before = at > 0 && strategy.OnlyExpected() == Parser::Equals && kind_at(at - 1) == TokenKind::kName;
+    if (call_before || kind_at(at) == TokenKind::kSubName) {
+      recipe.error.code = diag::Code::kNotAlone;
+      recipe.error.token = static_cast<std::uint16_t>(call_before ? at - 1 : at);
+      recipe.error.expected = nullptr;
+      recipe.error.help = "a subprogram call has a block of its own; a variable is set with =";
+    } else if (kind_at(at) == TokenKind::kBlockNumber) {
+      recipe.error.help = "the block number stands at the start of the block";
     }
     return recipe;
   }

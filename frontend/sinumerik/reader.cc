@@ -41,19 +41,30 @@ bool Contains(std::string_view text, std::string_view upper) {
 /// Mark that a refused block would have been, so that its partner is not a stray.
 WordOp MarkOf(K structure, std::span<const Token> tokens, std::string_view text) {
   switch (structure) {
-    case K::kIf: return Contains(text, "GOTO") ? WordOp::kMotion : WordOp::kIf;
-    case K::kElse: return WordOp::kElse;
-    case K::kEndIf: return WordOp::kEndIf;
-    case K::kWhile: return WordOp::kWhile;
-    case K::kEndWhile: return WordOp::kEndWhile;
-    case K::kFor: return WordOp::kFor;
-    case K::kEndFor: return WordOp::kEndFor;
-    case K::kLoop: return WordOp::kLoop;
-    case K::kEndLoop: return WordOp::kEndLoop;
+    case K::kIf:
+      return Contains(text, "GOTO") ? WordOp::kMotion : WordOp::kIf;
+    case K::kElse:
+      return WordOp::kElse;
+    case K::kEndIf:
+      return WordOp::kEndIf;
+    case K::kWhile:
+      return WordOp::kWhile;
+    case K::kEndWhile:
+      return WordOp::kEndWhile;
+    case K::kFor:
+      return WordOp::kFor;
+    case K::kEndFor:
+      return WordOp::kEndFor;
+    case K::kLoop:
+      return WordOp::kLoop;
+    case K::kEndLoop:
+      return WordOp::kEndLoop;
     case K::kRepeat:
       return !tokens.empty() && static_cast<K>(tokens.back().kind) == K::kRepeat ? WordOp::kRepeat : WordOp::kMotion;
-    case K::kUntil: return WordOp::kUntil;
-    default: return WordOp::kMotion;
+    case K::kUntil:
+      return WordOp::kUntil;
+    default:
+      return WordOp::kMotion;
   }
 }
 
@@ -81,7 +92,8 @@ class Reader {
     for (std::uint32_t line = 1; line <= lines; ++line) {
       const std::string_view text = files_.Line(file_, line);
       if (!text.empty() && text[0] == '%' && ReadFileMark(text, line)) continue;
-      if (!state_.program.Valid()) StartProgram(PlainProgramName(name), main ? ir::ProgramKind::kMain : ir::ProgramKind::kSub);
+      if (!state_.program.Valid())
+        StartProgram(PlainProgramName(name), main ? ir::ProgramKind::kMain : ir::ProgramKind::kSub);
       ReadLine(text, line);
     }
     EndProgram();

@@ -12,7 +12,8 @@ namespace ncport::frontend::sinumerik {
 Status ReadFile(const SourceFiles& files, FileId file, const dialects::Profile& profile, const ReadOptions& options,
                 ir::Module& module, diag::Sink& sink);
 
-/// Name of a program without folder, `_N_`, `_MPF`, `_SPF` and file ending: all of them name the same program (card 1.1).
+/// Name of a program without folder, `_N_`, `_MPF`, `_SPF` and file ending: all of them name the same program
+/// (card 1.1).
 std::string_view PlainProgramName(std::string_view name);
 
 }  // namespace ncport::frontend::sinumerik

@@ -83,6 +83,13 @@ std::uint32_t ViaRowOf(char upper) {
   return kAuxiliaryRow;
 }
 
+/// `GOTO :30` is a jump to a main block, not a label.
+bool IsGotoWord(std::string_view text) {
+  char buffer[kMaxWord];
+  const WordEntry* entry = FindWord(UpperIn(text, buffer));
+  return entry != nullptr && entry->kind == K::kGoto;
+}
+
 bool IsStructureWord(K kind) {
   switch (kind) {
     case K::kIf:
@@ -95,8 +102,10 @@ bool IsStructureWord(K kind) {
     case K::kLoop:
     case K::kEndLoop:
     case K::kRepeat:
-    case K::kUntil: return true;
-    default: return false;
+    case K::kUntil:
+      return true;
+    default:
+      return false;
   }
 }
 
@@ -117,16 +126,15 @@ const Macros::Macro* Macros::Find(std::string_view upper) const {
   return nullptr;
 }
 
-const Token* TokenSource::Refused() const {
-  return refused_ != 0 && !defines_ ? &tokens_[refused_ - 1] : nullptr;
-}
+const Token* TokenSource::Refused() const { return refused_ != 0 && !defines_ ? &tokens_[refused_ - 1] : nullptr; }
 
 Token& TokenSource::Push(K kind, const char* from, const char* to) {
   Token& token = tokens_.emplace_back();
   token.kind = static_cast<std::uint16_t>(kind);
   token.offset = OffsetOf(from);
   token.length = in_macro_ != nullptr ? macro_length_ : static_cast<std::uint32_t>(to - from);
-  const bool sign = kind == K::kMinus || kind == K::kPlus || kind == K::kNot || kind == K::kBitNot || kind == K::kConcat;
+  const bool sign =
+      kind == K::kMinus || kind == K::kPlus || kind == K::kNot || kind == K::kBitNot || kind == K::kConcat;
   unary_ = sign ? unary_ + 1 : 0;
   return token;
 }
@@ -195,7 +203,8 @@ void TokenSource::LexStart(Cursor& c) {
   if (c.at < c.end && Is(*c.at, kStart)) {
     const char* word_end = SkipIdentifier(c.at, c.end);
     const char* colon = SkipBlanks(word_end, c.end);
-    if (colon < c.end && *colon == ':' && word_end - c.at >= 2) {
+    if (colon < c.end && *colon == ':' && word_end - c.at >= 2 &&
+        !IsGotoWord({c.at, static_cast<std::size_t>(word_end - c.at)})) {
       const char* from = c.at;
       Token& token = Push(K::kLabel, from, colon + 1);
       token.data = strings_.Intern({from, static_cast<std::size_t>(word_end - from)}).value;
@@ -254,9 +263,12 @@ bool TokenSource::WantsTarget() const {
   switch (Last()) {
     case K::kGoto:
     case K::kRepeat:
-    case K::kRepeatBlock: return true;
-    case K::kName: return tokens_.size() >= 2 && static_cast<K>(tokens_[tokens_.size() - 2].kind) == K::kRepeat;
-    default: return false;
+    case K::kRepeatBlock:
+      return true;
+    case K::kName:
+      return tokens_.size() >= 2 && static_cast<K>(tokens_[tokens_.size() - 2].kind) == K::kRepeat;
+    default:
+      return false;
   }
 }
 
@@ -332,12 +344,18 @@ void TokenSource::LexIdentifier(Cursor& c, const char* word_end) {
   token.digits = entry->digits;
   token.data = entry->data;
   switch (entry->kind) {
-    case K::kBoolean: token.number = entry->sub; break;
+    case K::kBoolean:
+      token.number = entry->sub;
+      break;
     case K::kRefused:
       if (refused_ == 0) refused_ = static_cast<std::uint32_t>(tokens_.size());
       break;
-    case K::kDefine: defines_ = true; break;
-    case K::kPathCall: LexPath(c); break;
+    case K::kDefine:
+      defines_ = true;
+      break;
+    case K::kPathCall:
+      LexPath(c);
+      break;
     case K::kAddress: {
       // A word of two letters or more always has `=` (card 2.2); without it the name is something else.
       const char* next = SkipBlanks(c.at, c.end);
@@ -346,7 +364,8 @@ void TokenSource::LexIdentifier(Cursor& c, const char* word_end) {
       }
       break;
     }
-    default: break;
+    default:
+      break;
   }
 }
 
@@ -356,8 +375,12 @@ void TokenSource::LexAddress(Cursor& c) {
   const char letter = Upper(*from);
   switch (letter) {
     case 'G':
-    case 'M': LexCode(c); return;
-    case 'N': LexNumberedWord(c, K::kBlockNumber); return;
+    case 'M':
+      LexCode(c);
+      return;
+    case 'N':
+      LexNumberedWord(c, K::kBlockNumber);
+      return;
     case 'R': {
       const char* digits = SkipBlanks(from + 1, c.end);
       if (digits < c.end && *digits == '[') {
@@ -366,7 +389,8 @@ void TokenSource::LexAddress(Cursor& c) {
       } else if (digits < c.end && IsDigit(*digits)) {
         LexNumberedWord(c, K::kCell);
       } else {
-        Fail(Code::kMissingValue, from, from + 1, "R is the space of R parameters: R1, R[1]; the radius of an arc is CR=");
+        Fail(Code::kMissingValue, from, from + 1,
+             "R is the space of R parameters: R1, R[1]; the radius of an arc is CR=");
       }
       return;
     }
@@ -388,7 +412,8 @@ void TokenSource::LexAddress(Cursor& c) {
       Push(K::kSubName, from, end).data = strings_.Intern({name, count + 1}).value;
       return;
     }
-    default: break;
+    default:
+      break;
   }
   // Inside brackets a letter is the name of an axis or spindle: `$AA_IM[X]`, `SPI(S1)`.
   const char* value_at = SkipBlanks(from + 1, c.end);
@@ -399,14 +424,16 @@ void TokenSource::LexAddress(Cursor& c) {
       LexAxis(c, from, digits_end);
     } else {
       c.at = digits_end;
-      Push(K::kName, from, digits_end).data = strings_.Intern({from, static_cast<std::size_t>(digits_end - from)}).value;
+      Push(K::kName, from, digits_end).data =
+          strings_.Intern({from, static_cast<std::size_t>(digits_end - from)}).value;
     }
     return;
   }
   // Digits are an extension only before `=` or `[` (card 2.2).
   const char* digits_end = SkipDigits(value_at, c.end);
   const char* behind = SkipBlanks(digits_end, c.end);
-  const bool assigned = behind < c.end && ((*behind == '=' && !(behind + 1 < c.end && behind[1] == '=')) || *behind == '[');
+  const bool assigned =
+      behind < c.end && ((*behind == '=' && !(behind + 1 < c.end && behind[1] == '=')) || *behind == '[');
   const bool extended = assigned && digits_end > value_at;
   const std::uint32_t row = AddressRowOf(letter);
   if (extended && digits_end - value_at > 4) {
@@ -441,9 +468,9 @@ void TokenSource::LexAddress(Cursor& c) {
     Fail(Code::kUnknownAddress, from, from + 1);
     return;
   }
-  Token& token = Push(letter == 'P'           ? K::kPassesValue
-                      : axis != kNamedAxis    ? K::kAxisValue
-                                              : K::kAddressValue,
+  Token& token = Push(letter == 'P'        ? K::kPassesValue
+                      : axis != kNamedAxis ? K::kAxisValue
+                                           : K::kAddressValue,
                       from, from + 1);
   token.sub = axis;
   token.digits = static_cast<std::uint8_t>(row);  // `data` may become the spelling of the number
@@ -487,7 +514,8 @@ void TokenSource::LexCode(Cursor& c) {
   const char* digits = SkipBlanks(from + 1, c.end);
   const char* end = SkipDigits(digits, c.end);
   const char* behind = SkipBlanks(end, c.end);
-  const bool assigned = behind < c.end && ((*behind == '=' && !(behind + 1 < c.end && behind[1] == '=')) || *behind == '[');
+  const bool assigned =
+      behind < c.end && ((*behind == '=' && !(behind + 1 < c.end && behind[1] == '=')) || *behind == '[');
   std::uint32_t number = 0;
   const bool fits = std::from_chars(digits, end, number).ec == std::errc() && end - digits <= 9;
   if (assigned) {
@@ -701,11 +729,21 @@ bool TokenSource::LexOperator(Cursor& c) {
       kind = next == '=' ? K::kGreaterEqual : K::kGreater;
       length = kind == K::kGreater ? 1 : 2;
       break;
-    case '+': kind = K::kPlus; break;
-    case '-': kind = K::kMinus; break;
-    case '*': kind = K::kStar; break;
-    case '/': kind = K::kSlash; break;
-    case ',': kind = K::kComma; break;
+    case '+':
+      kind = K::kPlus;
+      break;
+    case '-':
+      kind = K::kMinus;
+      break;
+    case '*':
+      kind = K::kStar;
+      break;
+    case '/':
+      kind = K::kSlash;
+      break;
+    case ',':
+      kind = K::kComma;
+      break;
     case ':': {
       const char* digits = SkipBlanks(from + 1, c.end);
       if (Last() == K::kGoto && digits < c.end && IsDigit(*digits)) {
@@ -737,7 +775,8 @@ bool TokenSource::LexOperator(Cursor& c) {
       }
       kind = *from == ')' ? K::kRightParen : K::kRightBracket;
       break;
-    default: return false;
+    default:
+      return false;
   }
   // `= =`, `> =`, `< >`: one operator, torn apart (card 11: pages for small controls print it so).
   const bool tears = kind == K::kEquals || kind == K::kLess || kind == K::kGreater;

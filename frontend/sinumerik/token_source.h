@@ -1,5 +1,5 @@
-// Splits one line of SINUMERIK text into tokens (card section 2). Works line by line, without allocation once its buffer
-// has grown, and knows nothing of blocks: the parser decides what may stand where.
+// Splits one line of SINUMERIK text into tokens (card section 2). Works line by line, without allocation once its
+// buffer has grown, and knows nothing of blocks: the parser decides what may stand where.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ namespace ncport::frontend::sinumerik {
 class Macros {
  public:
   struct Macro {
-    std::string name;   // upper case
+    std::string name;  // upper case
     std::string text;
   };
   /// False if the name is taken.
@@ -36,10 +36,10 @@ class Macros {
 class TokenSource {
  public:
   /// Limits that keep untrusted text harmless; far above what the control takes (card 10).
-  static constexpr std::uint32_t kMaxLineBytes = 4096;   // without comment
+  static constexpr std::uint32_t kMaxLineBytes = 4096;  // without comment
   static constexpr std::uint32_t kMaxTokens = 1000;
-  static constexpr std::uint32_t kMaxDepth = 64;         // brackets
-  static constexpr std::uint32_t kMaxUnary = 32;         // signs and NOT behind each other
+  static constexpr std::uint32_t kMaxDepth = 64;  // brackets
+  static constexpr std::uint32_t kMaxUnary = 32;  // signs and NOT behind each other
 
   static constexpr std::uint32_t kNoComment = 0xFFFFFFFFU;
 
@@ -89,7 +89,8 @@ class TokenSource {
   void ReadExponent(const char* start, const char*& at, const char* end, Token& token);
 
   Token& Push(TokenKind kind, const char* from, const char* to);
-  void Fail(diag::Code code, const char* from, const char* to, const char* help = nullptr, const char* detail = nullptr);
+  void Fail(diag::Code code, const char* from, const char* to, const char* help = nullptr,
+            const char* detail = nullptr);
   [[nodiscard]] std::uint32_t OffsetOf(const char* at) const {
     return in_macro_ != nullptr ? macro_offset_ : static_cast<std::uint32_t>(at - line_);
   }
@@ -109,9 +110,9 @@ class TokenSource {
   std::uint32_t comment_ = kNoComment;
   std::uint32_t depth_ = 0;
   std::uint32_t unary_ = 0;
-  std::uint32_t refused_ = 0;       // index + 1
+  std::uint32_t refused_ = 0;  // index + 1
   TokenKind structure_ = TokenKind::kNone;
-  bool defines_ = false;            // a DEFINE block: no substitution, no checks of its text
+  bool defines_ = false;  // a DEFINE block: no substitution, no checks of its text
   bool failed_ = false;
   LineError error_;
   struct Open {

@@ -78,8 +78,8 @@ constexpr WordEntry kKeywords[] = {
 };
 
 // Groups 1, 2, 3, 9, 10, 15, 31, 32, 47 of card 8.1: known to the control, their effect on a trace is not modelled.
-constexpr std::uint32_t kRefusedG[] = {5,   7,   25,  26,  58,  59,  147, 148, 247, 248, 291, 335, 336,
-                                       347, 348, 931, 942, 952, 961, 962, 971, 972, 973};
+constexpr std::uint32_t kRefusedG[] = {5,   7,   25,  26,  58,  59,  147, 148, 247, 248, 291, 335,
+                                       336, 347, 348, 931, 942, 952, 961, 962, 971, 972, 973};
 constexpr std::uint32_t kMaxG = 1000;
 constexpr std::uint32_t kMaxM = 100;
 
@@ -161,7 +161,8 @@ class Index {
     const auto modes = words::ValueModes();
     for (std::uint32_t row = 0; row < modes.size(); ++row) Add({modes[row].text, K::kMode, 0, 0, row});
     for (const words::TypeRow& type : words::Types()) {
-      Add({type.text, type.type == ir::Type::kString ? K::kStringType : K::kType, static_cast<std::uint8_t>(type.type)});
+      Add({type.text, type.type == ir::Type::kString ? K::kStringType : K::kType,
+           static_cast<std::uint8_t>(type.type)});
     }
     const auto attributes = words::ProgramAttributes();
     for (std::uint32_t row = 0; row < attributes.size(); ++row) Add({attributes[row], K::kAttribute, 0, 0, row});

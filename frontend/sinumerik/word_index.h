@@ -9,7 +9,7 @@
 namespace ncport::frontend::sinumerik {
 
 struct WordEntry {
-  std::string_view text;   // upper case
+  std::string_view text;  // upper case
   TokenKind kind = TokenKind::kNone;
   std::uint8_t sub = 0;
   std::uint8_t digits = 0;

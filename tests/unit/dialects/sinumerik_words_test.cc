@@ -17,7 +17,8 @@ TEST_CASE("codes are read both ways") {
   CHECK(Codes().FindMeaning(ir::WordOp::kMotion, static_cast<std::uint8_t>(ir::Motion::kTapIn)) == row);
   CHECK(Codes().FindMeaning(ir::WordOp::kWorkOffset, 0, 599)->text == "G599");
   CHECK(Codes().FindMeaning(ir::WordOp::kWorkOffset, 0, 0)->text == "G500");
-  CHECK(Codes().FindMeaning(ir::WordOp::kPathMode, static_cast<std::uint8_t>(ir::PathMode::kContinuous))->text == "G64");
+  CHECK(Codes().FindMeaning(ir::WordOp::kPathMode, static_cast<std::uint8_t>(ir::PathMode::kContinuous))->text ==
+        "G64");
   CHECK(Codes().FindText("G44") == nullptr);
 }
 

@@ -1,0 +1,369 @@
+#include "frontend/sinumerik/resolve.h"
+
+#include <algorithm>
+
+#include "base/near_name.h"
+#include "base/result.h"
+#include "dialects/sinumerik/library.h"
+#include "frontend/common/chars.h"
+#include "frontend/reader.h"
+#include "frontend/sinumerik/reader.h"
+#include "frontend/sinumerik/resolver.h"
+
+namespace ncport::frontend::sinumerik {
+
+using diag::Code;
+using ir::ExprId;
+using ir::Scope;
+using ir::Type;
+using ir::WordOp;
+
+namespace {
+
+std::string UpperOf(std::string_view text) {
+  std::string upper(text);
+  for (char& c : upper) c = Upper(c);
+  return upper;
+}
+
+std::string KeyOf(ir::ProgramId owner, std::string_view name) {
+  return owner.Valid() ? std::to_string(owner.value) + ":" + UpperOf(name) : ":" + UpperOf(name);
+}
+
+}  // namespace
+
+ir::ProgramId FindProgram(const ir::Module& module, std::string_view name) {
+  const std::string wanted = UpperOf(PlainProgramName(name));
+  ir::ProgramId found;
+  ir::ProgramId by_file;
+  for (const ir::ProgramId id : module.programs.Ids()) {
+    const ir::Program& program = module.programs[id];
+    if (IsWord(module.View(program.name), wanted)) {
+      // Card 7.3: of two programs of one name the subprogram is taken, of the user's before the control's.
+      const bool better = !found.Valid() || (module.programs[found].library && !program.library) ||
+                          (module.programs[found].kind == ir::ProgramKind::kMain &&
+                           program.kind == ir::ProgramKind::kSub && module.programs[found].library == program.library);
+      if (better) found = id;
+    } else if (!by_file.Valid() && program.file.Valid() && program.file.value < module.file_names.size() &&
+               IsWord(PlainProgramName(module.View(module.file_names[program.file.value])), wanted)) {
+      by_file = id;  // PROC names it otherwise; the control looks for the file
+    }
+  }
+  return found.Valid() ? found : by_file;
+}
+
+void ResolveNames(SourceFiles& files, ir::Module& module, const dialects::Profile& profile, diag::Sink& sink) {
+  Resolver(files, module, profile, sink).Run();
+}
+
+void Resolver::Run() {
+  ReadLibrary();
+  IndexVariables();
+  for (const ir::ProgramId id : module_.programs.Ids()) Program(id);
+  // What is left stands in refused blocks, which nobody looks into.
+  for (ir::Expr& expr : module_.exprs.All()) {
+    if (expr.op == ir::ExprOp::kName) expr = ir::Expr();
+  }
+}
+
+// Standard cycles that are called and that no file of the user holds.
+void Resolver::ReadLibrary() {
+  // Cycles may call cycles: until nothing is added.
+  for (bool added = true; added;) {
+    added = false;
+    for (const StringId name : UnknownCallees(module_)) {
+      const std::string plain = UpperOf(PlainProgramName(module_.View(name)));
+      const auto text = dialects::sinumerik::LibraryCycle(plain);
+      if (!text) continue;
+      std::string file_name = "<" + plain + ">";
+      for (char& c : file_name) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+      const FileId file = files_.Add(std::move(file_name), std::string(*text));
+      const std::size_t programs = module_.programs.Size();
+      NCPORT_CHECK(frontend::ReadFile(files_, file, profile_, {.library = true}, module_, sink_).Ok(),
+                   "cycle {} is not read", plain);
+      for (std::size_t i = programs; i < module_.programs.Size(); ++i) {
+        ir::Program& program = module_.programs[ir::ProgramId{i}];
+        program.kind = ir::ProgramKind::kSub;
+        if (dialects::sinumerik::LibrarySaveFollowsProfile(plain) &&
+            !profile_.sinumerik.drill_cycles_keep_codes.Or(true)) {
+          program.saves_modal_state = false;
+        }
+      }
+      added = true;
+    }
+  }
+}
+
+void Resolver::IndexVariables() {
+  const bool main_visible = profile_.sinumerik.main_variables_visible.Or(false);
+  for (const ir::VariableId id : module_.variables.Ids()) {
+    const ir::Variable& variable = module_.variables[id];
+    const std::string_view name = module_.View(variable.name);
+    const bool global = variable.scope == Scope::kChannel || variable.scope == Scope::kGlobal;
+    const ir::ProgramId owner = global ? ir::ProgramId{} : variable.owner;
+    if (!variables_.emplace(KeyOf(owner, name), id).second) {
+      sink_.Report(Code::kDoubleName, {variable.file, variable.line, variable.begin, variable.begin + variable.length},
+                   name);
+    }
+    if (variable.scope == Scope::kProgram && main_visible) variables_.emplace(KeyOf({}, name), id);
+  }
+}
+
+ir::VariableId Resolver::FindVariable(std::string_view name) const {
+  const auto own = variables_.find(KeyOf(program_, name));
+  if (own != variables_.end()) return own->second;
+  const auto global = variables_.find(KeyOf({}, name));
+  return global != variables_.end() ? global->second : ir::VariableId{};
+}
+
+bool Resolver::FindAxis(std::string_view name, std::uint8_t& axis) const {
+  constexpr std::string_view kLetters = "XYZABCUVW";
+  for (std::size_t i = 0; i < module_.axis_names.size(); ++i) {
+    if (IsWord(name, module_.View(module_.axis_names[i]))) {
+      axis = static_cast<std::uint8_t>(ir::kFirstNamedAxis + i);
+      return true;
+    }
+  }
+  for (const std::string& known : profile_.axes) {
+    if (!IsWord(name, known)) continue;
+    if (known.size() == 1 && kLetters.find(known[0]) != std::string_view::npos) {
+      axis = static_cast<std::uint8_t>(kLetters.find(known[0]));
+      return true;
+    }
+    if (ir::kFirstNamedAxis + module_.axis_names.size() == ir::kMaxAxes) return false;
+    axis = static_cast<std::uint8_t>(ir::kFirstNamedAxis + module_.axis_names.size());
+    module_.axis_names.push_back(module_.strings.Intern(known));
+    return true;
+  }
+  return false;
+}
+
+bool Resolver::UnknownName(ExprId id, std::string_view name) {
+  diag::Diagnostic& finding = sink_.Report(Code::kUnknownName, module_.RangeOf(module_.blocks[block_], id), name);
+  std::vector<std::string_view> known;
+  for (const auto& [key, variable] : variables_) {
+    const ir::Variable& record = module_.variables[variable];
+    if (record.owner == program_ || !record.owner.Valid()) known.push_back(module_.View(record.name));
+  }
+  std::sort(known.begin(), known.end());
+  const std::string_view near = NearName(name, known);
+  if (!near.empty()) finding.help = "did you mean " + std::string(near) + "?";
+  const auto main = std::find_if(variables_.begin(), variables_.end(), [&](const auto& entry) {
+    const ir::Variable& record = module_.variables[entry.second];
+    return record.scope == Scope::kProgram && IsWord(module_.View(record.name), UpperOf(name));
+  });
+  if (main != variables_.end()) {
+    const ir::Variable& record = module_.variables[main->second];
+    finding.notes.push_back({{record.file, record.line, record.begin, record.begin + record.length},
+                             "variables of a main program are not visible in its subprograms "
+                             "(profile key sinumerik.main-variables-visible, MD11120)"});
+  }
+  return false;
+}
+
+void Resolver::CollectLabels(ir::ProgramId program) {
+  labels_.clear();
+  for (const ir::BlockId id : module_.programs[program].blocks) {
+    const StringId label = module_.blocks[id].label;
+    if (label.Valid()) labels_.insert(UpperOf(module_.View(label)));
+  }
+}
+
+void Resolver::Program(ir::ProgramId program) {
+  program_ = program;
+  CollectLabels(program);
+  for (const ir::BlockId id : module_.programs[program].blocks) {
+    if (!module_.blocks[id].words.Empty()) Block(id);
+  }
+}
+
+void Resolver::Block(ir::BlockId id) {
+  block_ = id;
+  bool ok = true;
+  for (const ir::WordId word_id : module_.blocks[id].words) {
+    // The store may grow while a word is resolved, so a copy is worked on.
+    ir::Word word = module_.words[word_id];
+    ok = Word(word);
+    module_.words[word_id] = word;
+    if (!ok) break;
+  }
+  if (!ok) Refuse(module_.blocks[id]);
+}
+
+// The block becomes its text; names in it lead nowhere.
+void Resolver::Refuse(ir::Block& block) {
+  const ir::Origin& origin = module_.origins[block.origin];
+  const std::string_view line = files_.Line(origin.file, origin.line);
+  const ir::Word& first = module_.words[block.words[0]];
+  const ir::Word& last = module_.words[block.words[block.words.count - 1]];
+  ir::Word word;
+  word.op = WordOp::kVerbatim;
+  word.index = ir::IsStructureMark(first.op) ? static_cast<std::uint8_t>(first.op) : 0;
+  word.begin = first.begin;
+  word.length = last.begin + last.length - first.begin;
+  word.extra = module_.strings.Intern(line.substr(word.begin, word.length)).value;
+  block.words = {module_.words.Add(word).value, 1};
+  block.flags |= ir::Block::kRefused;
+}
+
+bool Resolver::Word(ir::Word& word) {
+  switch (word.op) {
+    case WordOp::kAssign: {
+      const ExprId place = word.Extra<ExprId>();
+      const ir::Expr& expr = module_.exprs[place];
+      std::uint8_t axis = 0;
+      // An axis that only the machine's list knows by its name: `AX1=10`.
+      if (expr.op == ir::ExprOp::kName && expr.count == 0) {
+        const std::string_view name = module_.View(StringId{std::size_t{expr.a}});
+        if (!FindVariable(name).Valid() && FindAxis(name, axis)) {
+          module_.exprs[place].op = ir::ExprOp::kAxisName;
+          module_.exprs[place].type = Type::kAxis;
+          module_.exprs[place].a = axis;
+          word.op = WordOp::kAxis;
+          word.index = axis;
+          word.extra = Id<void>::kNone;
+          word.phase = ir::DefaultPhaseOf(WordOp::kAxis);
+          return Number(word.value);
+        }
+      }
+      return Place(place) && Converted(word.value, module_.exprs[place].type);
+    }
+    case WordOp::kAssignList:
+      return List(word.Extra<ir::AssignListId>(), module_.assign_lists[word.Extra<ir::AssignListId>()].place, {});
+    case WordOp::kDefine:
+      return Define(word.Extra<ir::VariableId>());
+    case WordOp::kHeader:
+      return Parameters(word.Extra<ir::ProgramId>());
+    case WordOp::kAxisComputed: {
+      const ExprId axis = word.Extra<ExprId>();
+      if (!Scalar(axis)) return false;
+      const Type type = module_.exprs[axis].type;
+      if (type == Type::kString || type == Type::kFrame) return Mismatch(axis, "a text", "an axis");
+      return Number(word.value);
+    }
+    case WordOp::kMessage: {
+      const ExprId mode = word.Extra<ExprId>();
+      return (!word.value.Valid() || Scalar(word.value)) && (!mode.Valid() || Scalar(mode));
+    }
+    case WordOp::kAlarm: {
+      const ExprId text = word.Extra<ExprId>();
+      return Converted(word.value, Type::kInt) && (!text.Valid() || Scalar(text));
+    }
+    case WordOp::kJump:
+      return (!word.value.Valid() || Condition(word.value)) && Jump(word.Extra<ir::JumpId>());
+    case WordOp::kSwitch:
+      return Converted(word.value, Type::kInt) && Switch(word.Extra<ir::SwitchId>());
+    case WordOp::kCall:
+    case WordOp::kModalCall:
+    case WordOp::kWorkpiece:
+      return !word.Extra<ir::CallId>().Valid() || Call(word);
+    case WordOp::kRepeatPart:
+      return (!word.value.Valid() || Converted(word.value, Type::kInt)) && Part(word.Extra<ir::PartId>());
+    case WordOp::kReturn:
+      return !word.value.Valid() || Scalar(word.value);
+    case WordOp::kIf:
+    case WordOp::kWhile:
+    case WordOp::kUntil:
+    case WordOp::kWhen:
+      return Condition(word.value);
+    case WordOp::kFor: {
+      ir::For record = module_.fors[word.Extra<ir::ForId>()];
+      const bool ok =
+          Place(record.variable) && Converted(word.value, module_.exprs[record.variable].type) && Number(record.end);
+      module_.fors[word.Extra<ir::ForId>()] = record;
+      return ok;
+    }
+    case WordOp::kTool:
+      if (!Scalar(word.value)) return false;
+      return module_.exprs[word.value].type == Type::kString || Fits(word.value, Type::kInt);
+    case WordOp::kEdge:
+    case WordOp::kComputedM:
+    case WordOp::kComputedG:
+    case WordOp::kTurns:
+      return Converted(word.value, Type::kInt);
+    default:
+      return !word.value.Valid() || Number(word.value);
+  }
+}
+
+bool Resolver::Define(ir::VariableId id) {
+  ir::Variable variable = module_.variables[id];
+  const Type type = variable.type;
+  bool ok = true;
+  if (variable.initial.Valid()) ok = Converted(variable.initial, type);
+  if (ok && variable.lower_limit.Valid()) ok = Number(variable.lower_limit);
+  if (ok && variable.upper_limit.Valid()) ok = Number(variable.upper_limit);
+  module_.variables[id] = variable;
+  return ok && (!variable.initial_list.Valid() || List(variable.initial_list, {}, id));
+}
+
+bool Resolver::Parameters(ir::ProgramId program) {
+  for (const ir::VariableId id : module_.programs[program].parameters) {
+    if (!Define(id)) return false;
+  }
+  return true;
+}
+
+bool Resolver::List(ir::AssignListId id, ExprId place, ir::VariableId whole) {
+  ir::AssignList list = module_.assign_lists[id];
+  Type type = whole.Valid() ? module_.variables[whole].type : Type::kAny;
+  if (place.Valid()) {
+    if (!Place(place)) return false;
+    type = module_.exprs[place].type;
+  }
+  for (const ir::ExprItemId item : list.values) {
+    ExprId value = module_.expr_items[item.value];
+    if (!value.Valid()) continue;
+    if (!Converted(value, type)) return false;
+    module_.expr_items[item.value] = value;
+  }
+  if (list.count.Valid() && !Converted(list.count, Type::kInt)) return false;
+  module_.assign_lists[id] = list;
+  return true;
+}
+
+bool Resolver::Jump(ir::JumpId id) {
+  ir::Target target = module_.jumps[id].target;
+  const bool ok = Target(target, true);
+  module_.jumps[id].target = target;
+  return ok;
+}
+
+// A name that is no label but a STRING variable holds the target (card 6.1).
+bool Resolver::Target(ir::Target& target, bool own_program) {
+  if (target.kind == ir::TargetKind::kExpression) return Scalar(target.expr);
+  if (target.kind != ir::TargetKind::kLabel || !target.label.Valid()) return true;
+  const std::string_view name = module_.View(target.label);
+  if (own_program && labels_.contains(UpperOf(name))) return true;
+  const ir::VariableId variable = FindVariable(name);
+  if (!variable.Valid() || module_.variables[variable].type != Type::kString) return true;
+  ir::Expr expr;
+  expr.op = ir::ExprOp::kVariable;
+  expr.type = Type::kString;
+  expr.a = variable.value;
+  expr.b = Id<void>::kNone;
+  target.kind = ir::TargetKind::kExpression;
+  target.expr = module_.AddExpr(expr);
+  target.label = {};
+  return true;
+}
+
+bool Resolver::Part(ir::PartId id) {
+  ir::Part part = module_.parts[id];
+  const bool ok = Target(part.first, true) && (!part.has_last || Target(part.last, true));
+  module_.parts[id] = part;
+  return ok;
+}
+
+bool Resolver::Switch(ir::SwitchId id) {
+  const ir::Switch record = module_.switches[id];
+  for (std::uint32_t i = 0; i < record.arm_count; ++i) {
+    ir::SwitchArm arm = module_.switch_arms[record.first_arm + i];
+    if (arm.value.Valid() && !Converted(arm.value, Type::kInt)) return false;
+    module_.switch_arms[record.first_arm + i] = arm;
+    if (!Jump(arm.jump)) return false;
+  }
+  return true;
+}
+
+}  // namespace ncport::frontend::sinumerik

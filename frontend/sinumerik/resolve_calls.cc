@@ -1,0 +1,148 @@
+// Calls: the program, and what its parameters make of the arguments (card 3.7, 7.1).
+#include <string>
+
+#include "dialects/sinumerik/library.h"
+#include "dialects/sinumerik/words.h"
+#include "frontend/common/chars.h"
+#include "frontend/sinumerik/reader.h"
+#include "frontend/sinumerik/resolve.h"
+#include "frontend/sinumerik/resolver.h"
+
+namespace ncport::frontend::sinumerik {
+
+using diag::Code;
+using ir::ExprId;
+using ir::ExprOp;
+using ir::Type;
+
+namespace {
+
+std::string_view TypeText(Type type) {
+  for (const auto& row : dialects::sinumerik::Types()) {
+    if (row.type == type) return row.text;
+  }
+  return "another type";
+}
+
+}  // namespace
+
+bool Resolver::Call(ir::Word& word) {
+  const ir::CallId id = word.Extra<ir::CallId>();
+  ir::Call call = module_.calls[id];
+  if (call.passes.Valid() && !Converted(call.passes, Type::kInt)) return false;
+  if (word.op == ir::WordOp::kWorkpiece) {
+    for (const ir::ArgId arg : call.args) {
+      if (module_.args[arg].value.Valid() && !Scalar(module_.args[arg].value)) return false;
+    }
+    return true;
+  }
+  if (call.name_expr.Valid()) {
+    ir::Expr& name = module_.exprs[call.name_expr];
+    // CALL NAME BLOCK ..: a variable with the name of the program, or the program itself.
+    if (name.op == ExprOp::kName && name.count == 0) {
+      const StringId text{std::size_t{name.a}};
+      if (!FindVariable(module_.View(text)).Valid() && FindProgram(module_, module_.View(text)).Valid()) {
+        name.op = ExprOp::kText;
+        name.type = Type::kString;
+        call.name = text;
+        call.name_expr = {};
+      }
+    }
+    if (call.name_expr.Valid()) {
+      if (!Scalar(call.name_expr)) return false;
+      const ir::Expr& resolved = module_.exprs[call.name_expr];
+      if (resolved.type != Type::kString && resolved.type != Type::kAny) {
+        return Mismatch(call.name_expr, "a number", "the name of a program");
+      }
+      if (resolved.op == ExprOp::kText) {
+        call.program = FindProgram(module_, module_.View(StringId{std::size_t{resolved.a}}));
+      }
+    }
+  }
+  if (call.name.Valid()) {
+    call.program = FindProgram(module_, module_.View(call.name));
+    if (!call.program.Valid() && missing_programs_.insert(std::string(module_.View(call.name))).second) {
+      // The block stays: a run that gets there ends in the alarm of the control.
+      sink_.Report(Code::kUnknownProgram, module_.RangeOf(module_.blocks[block_], word), module_.View(call.name)).help =
+          "give its file too, or name its folder with -I";
+    }
+  }
+  const bool in_own_program = !call.program.Valid() && !call.name_expr.Valid();
+  if (!Target(call.from, in_own_program) || !Target(call.to, in_own_program)) return false;
+  module_.calls[id] = call;
+  return Arguments(call, word);
+}
+
+bool Resolver::Arguments(const ir::Call& call, const ir::Word& word) {
+  if (!call.program.Valid()) {
+    for (const ir::ArgId arg : call.args) {
+      // A whole array may be an argument.
+      if (module_.args[arg].value.Valid() && !Expr(module_.args[arg].value)) return false;
+    }
+    return true;
+  }
+  const ir::Program& program = module_.programs[call.program];
+  const SourceRange at = module_.RangeOf(module_.blocks[block_], word);
+  if (call.args.count > program.parameters.count) {
+    sink_.Report(Code::kArgumentCount, at, module_.View(program.name), program.parameters.count, call.args.count);
+    return false;
+  }
+  for (const ir::ArgId id : call.args) {
+    ir::Arg arg = module_.args[id];
+    if (!arg.value.Valid()) continue;
+    if (!Argument(arg, program.parameters[arg.position])) return false;
+    module_.args[id] = arg;
+  }
+  for (std::uint32_t i = 0; i < program.parameters.count; ++i) {
+    const ir::Variable& parameter = module_.variables[program.parameters[i]];
+    const bool given = i < call.args.count && module_.args[call.args[i]].value.Valid();
+    if (parameter.by_reference && !given) {
+      sink_.Report(Code::kMissingArgument, at, module_.View(program.name), module_.View(parameter.name));
+      return false;
+    }
+  }
+  return !program.library || CycleLimits(call);
+}
+
+bool Resolver::Argument(ir::Arg& arg, ir::VariableId parameter_id) {
+  const ir::Variable parameter = module_.variables[parameter_id];
+  if (!parameter.by_reference && parameter.dimension_count == 0) return Converted(arg.value, parameter.type);
+  // By reference: a variable of the same type; arrays of the same number of dimensions.
+  if (!Expr(arg.value)) return false;
+  const ir::Expr& value = module_.exprs[arg.value];
+  const std::string wanted = "a variable of type " + std::string(TypeText(parameter.type));
+  switch (value.op) {
+    case ExprOp::kVariable:
+    case ExprOp::kElement:
+    case ExprOp::kCell:
+    case ExprOp::kCellAt:
+      break;
+    default:
+      return Mismatch(arg.value, "a value", wanted);
+  }
+  if (value.type != parameter.type && value.type != Type::kAny)
+    return Mismatch(arg.value, TypeText(value.type), wanted);
+  const std::uint8_t dimensions =
+      value.op == ExprOp::kVariable ? module_.variables[ir::VariableId{std::size_t{value.a}}].dimension_count : 0;
+  if (dimensions != parameter.dimension_count) {
+    return Mismatch(arg.value, dimensions == 0 ? "one value" : "an array",
+                    parameter.dimension_count == 0 ? "one value" : "an array with as many dimensions");
+  }
+  return true;
+}
+
+// Parameters of standard cycles whose effect is not known.
+bool Resolver::CycleLimits(const ir::Call& call) {
+  const ir::Program& program = module_.programs[call.program];
+  for (const auto& limit : dialects::sinumerik::LibraryLimits()) {
+    if (!IsWord(module_.View(program.name), limit.cycle) || limit.position >= call.args.count) continue;
+    const ExprId value = module_.args[call.args[limit.position]].value;
+    if (!value.Valid()) continue;
+    const ir::Expr& expr = module_.exprs[value];
+    if (expr.op == ExprOp::kLiteral && expr.number == 0) continue;
+    return Fail(Code::kCycleArgument, value, limit.parameter, limit.cycle, limit.reason);
+  }
+  return true;
+}
+
+}  // namespace ncport::frontend::sinumerik

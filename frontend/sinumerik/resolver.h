@@ -1,0 +1,85 @@
+// The work of ResolveNames, split over resolve_*.cc.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "base/diag/sink.h"
+#include "base/source_files.h"
+#include "dialects/profile.h"
+#include "ir/module.h"
+
+namespace ncport::frontend::sinumerik {
+
+class Resolver {
+ public:
+  Resolver(SourceFiles& files, ir::Module& module, const dialects::Profile& profile, diag::Sink& sink)
+      : files_(files), module_(module), profile_(profile), sink_(sink) {}
+
+  void Run();
+
+ private:
+  // Programs and scopes (resolve.cc).
+  void ReadLibrary();
+  void IndexVariables();
+  void Program(ir::ProgramId program);
+  void Block(ir::BlockId block);
+  bool Word(ir::Word& word);
+  bool Define(ir::VariableId variable);
+  bool Parameters(ir::ProgramId program);
+  bool List(ir::AssignListId list, ir::ExprId place, ir::VariableId whole);
+  bool Jump(ir::JumpId jump);
+  bool Target(ir::Target& target, bool own_program);
+  bool Part(ir::PartId part);
+  bool Switch(ir::SwitchId id);
+  void CollectLabels(ir::ProgramId program);
+  void Refuse(ir::Block& block);
+  [[nodiscard]] ir::VariableId FindVariable(std::string_view name) const;
+  [[nodiscard]] bool FindAxis(std::string_view name, std::uint8_t& axis) const;
+
+  // Calls (resolve_calls.cc).
+  bool Call(ir::Word& word);
+  bool Arguments(const ir::Call& call, const ir::Word& word);
+  bool Argument(ir::Arg& arg, ir::VariableId parameter);
+  bool CycleLimits(const ir::Call& call);
+
+  // Expressions (resolve_types.cc): names replaced, types set. False after a finding.
+  bool Expr(ir::ExprId id);
+  bool Name(ir::ExprId id);
+  bool Operation(ir::ExprId id);
+  bool Place(ir::ExprId id);   // something that can be written
+  bool Scalar(ir::ExprId id);  // Expr, and no whole array
+  bool Condition(ir::ExprId id);
+  bool Number(ir::ExprId id);  // Expr, and a number
+  /// Expr, then converted to the type where the value changes by it; a finding where no conversion exists.
+  bool Converted(ir::ExprId& id, ir::Type type);
+  bool Fits(ir::ExprId& id, ir::Type type);  // as Converted, of a resolved expression
+  bool Mismatch(ir::ExprId id, std::string_view what, std::string_view needed);
+
+  template <class... Args>
+  bool Fail(diag::Code code, ir::ExprId at, const Args&... args) {
+    sink_.Report(code, module_.RangeOf(module_.blocks[block_], at), args...);
+    return false;
+  }
+  bool UnknownName(ir::ExprId id, std::string_view name);
+
+  [[nodiscard]] std::uint64_t Key(ir::ProgramId program, std::string_view name) const;
+
+  SourceFiles& files_;
+  ir::Module& module_;
+  const dialects::Profile& profile_;
+  diag::Sink& sink_;
+  ir::ProgramId program_;
+  ir::BlockId block_;
+  std::uint32_t resolved_programs_ = 0;
+  std::size_t indexed_variables_ = 0;
+  std::unordered_map<std::string, ir::VariableId> variables_;  // "<owner>:<NAME>"; owner empty: visible everywhere
+  std::unordered_set<std::string> labels_;                     // of program_, upper case
+  std::unordered_set<std::string> missing_programs_;
+};
+
+}  // namespace ncport::frontend::sinumerik

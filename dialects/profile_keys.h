@@ -17,7 +17,7 @@ namespace ncport::dialects {
 struct TextKey {
   Setting<std::string>& (*get)(Profile&);
   bool pattern = false;
-  std::string_view holes;  // separated by blanks
+  std::string_view holes = {};  // separated by blanks
 };
 /// A list of texts (blocks, names).
 struct TextsKey {

@@ -28,6 +28,7 @@ WordShape ShapeOf(WordOp op) {
       return {IndexKind::kNone, ExtraKind::kNumber};
     // Rows of a table may tell words without effect apart by a number.
     case WordOp::kInert:
+    case WordOp::kAux:
       return {IndexKind::kNumber, ExtraKind::kNumber, true};
     case WordOp::kAxis:
       return {IndexKind::kAxis};
@@ -88,7 +89,6 @@ WordShape ShapeOf(WordOp op) {
     case WordOp::kTool:
     case WordOp::kToolChange:
     case WordOp::kLengthOffset:
-    case WordOp::kAux:
     case WordOp::kAuxH:
     case WordOp::kDwellRevolutions:
     case WordOp::kSkipRest:

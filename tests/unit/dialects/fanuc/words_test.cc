@@ -69,7 +69,7 @@ TEST_CASE("no text means two things in one system") {
     for (const CycleRow& row : Cycles()) {
       if (FindCycle(system, row.text) == &row) ++seen[row.text];
     }
-    for (const auto& [text, count] : seen) CHECK_MESSAGE(count == 1, std::string(text));
+    for (const auto& entry : seen) CHECK_MESSAGE(entry.second == 1, std::string(entry.first));
   }
   // A row hidden behind another one of the same text and system would never be found.
   for (const SpecialRow& row : SpecialCodes()) {

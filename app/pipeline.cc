@@ -68,17 +68,7 @@ Result<dialects::Profile> ChooseProfile(Context& context, const Input& first, co
   }
   const DecodedText decoded = DecodeText(first.bytes);
   const dialects::LanguageGuess guess = dialects::GuessLanguage(first.name, decoded.text);
-  if (!guess.Certain()) {
-    std::string reasons;
-    for (std::size_t i = 0; i < guess.languages.size(); ++i) {
-      if (i != 0) reasons += ", ";
-      reasons += fmt::format("{} ({})", dialects::NameOf(guess.languages[i]), guess.reasons[i]);
-    }
-    if (reasons.empty()) reasons = "neither its name nor its text speaks for one";
-    context.findings.Report(diag::Code::kUnclearLanguage, SourceRange{}, first.name, reasons).help =
-        "name the machine with --from; `ncport list profiles` shows them";
-    return Failure{};
-  }
+  NCPORT_TRY(dialects::NeedLanguage(guess, first.name, SourceRange{}, context.findings));
   const std::string name(dialects::UsualProfile(guess));
   std::string reason = guess.reasons.front();
   if (guess.lathe) reason += ", " + guess.lathe_reason;

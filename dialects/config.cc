@@ -88,6 +88,9 @@ class Reader {
   void ReadText(std::string_view key, const TomlNode& value, std::optional<std::string>& text) {
     if (value.kind != TomlKind::kText || value.text.empty()) return Refuse(key, value, "a profile name or path");
     text = value.text;
+    // A path is meant from the folder of this file, wherever ncport is started.
+    const bool path = text->find('/') != std::string::npos || text->ends_with(".toml");
+    if (path && !text->starts_with('/') && !config_.folder.empty()) *text = config_.folder + "/" + *text;
   }
 
   void ReadTable(const std::string& name, const TomlNode& table) {

@@ -305,7 +305,7 @@ Result<Language> NeedLanguage(const LanguageGuess& guess, std::string_view file_
   }
   if (signs.empty()) signs = "neither its ending nor a word in it speaks for one";
   sink.Report(diag::Code::kUnclearLanguage, at, file_name, signs).help =
-      "name the profile with --from, or in ncport.toml";
+      "name the machine with --from, or `from` in ncport.toml; `ncport list profiles` shows them";
   return Failure{};
 }
 

@@ -99,6 +99,13 @@ select = ["NC5"]
   CHECK(config.select == std::vector<std::string>{"NC5"});
 }
 
+TEST_CASE("a profile file is meant from the folder of ncport.toml") {
+  const Reading reading("from = \"./mill.toml\"\nto = \"iso-mill\"\n");
+  REQUIRE(reading.result.Ok());
+  CHECK(reading.result->from == reading.folder.path.string() + "/./mill.toml");
+  CHECK(reading.result->to == "iso-mill");
+}
+
 TEST_CASE("wrong lines are named with place and remedy") {
   CHECK(Reading("form = \"x\"\n").First() == "1 NC2101 unknown key form | did you mean from?");
   CHECK(Reading("[tols]\n\"T1\" = \"T0101\"\n").First() == "1 NC2101 unknown key tols | did you mean tools?");

@@ -165,6 +165,7 @@ void Kinematics::ArcVia(const BlockWork& work) {
   if (session_.halted) return;
   const double* const start = from_;
   const double* const end = channel_.base;
+  bool on_line = false;
   // A plane is taken when its normal axis stays where it is; an axis that nobody has named stays.
   for (const std::uint8_t normal : {std::uint8_t{2}, std::uint8_t{1}, std::uint8_t{0}}) {
     const PlaneAxes axes = AxesOf(PlaneWithNormal(normal));
@@ -172,13 +173,13 @@ void Kinematics::ArcVia(const BlockWork& work) {
     if (!flat || (via_known & Bits(axes)) != Bits(axes) || (from_known_ & Bits(axes)) != Bits(axes)) continue;
     const Arc arc = ArcThrough({start[axes.first], start[axes.second]}, {via[axes.first], via[axes.second]}, {end[axes.first], end[axes.second]});
     if (arc.fault == ArcFault::kNone) return SendArc(work, PlaneWithNormal(normal), arc.center, arc.clockwise, arc.start_radius, false);
-    if ((via_known & AxisBit(normal)) == 0 || arc.fault == ArcFault::kNoEnd) {
+    if (arc.fault != ArcFault::kOnLine) {
       ArcTrouble(arc);
       return;
     }
-    // On one line in this plane; perhaps all three lie in another one as well.
-    if (normal == 0) ArcTrouble(arc);
+    on_line = true;  // seen in this plane; perhaps all three lie in another one as well
   }
+  if (on_line) return session_.Alarm(ir::AlarmClass::kCircle, "points of the arc lie on one line");
   session_.Refuse(diag::Code::kCannotRun, "an arc through a point in a plane that is parallel to no main plane");
 }
 

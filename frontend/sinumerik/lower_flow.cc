@@ -226,6 +226,8 @@ bool Lowering::DoCall(const Action& action) {
       part.single = (action.arg & kPartSingle) != 0;
       part.has_last = (action.arg & kPartLast) != 0;
       if (part.has_last) part.last = TakeTarget();
+      // The predefined end label ends the section where it lies between (sinumerik-6.4).
+      if (!part.has_last && !part.single) part.last.label = module_.strings.Intern("ENDLABEL");
       part.first = TakeTarget();
       const ir::PartId id = module_.parts.Add(part);
       Word& word = AddWord(WordOp::kRepeatPart, action.first, action.last);

@@ -116,7 +116,7 @@ bool Lowering::AddCode(const Token& token) {
   const auto index = static_cast<std::uint32_t>(&token - tokens_.data());
   Word& word = AddWord(row.op, index, index);
   word.index = row.index;
-  word.extra = row.extra;
+  if (row.op != WordOp::kAux) word.extra = row.extra;  // there it is the number, which the word holds as its value
   word.phase = row.phase;
   word.flags = row.flags;
   word.value = value;
@@ -206,7 +206,7 @@ bool Lowering::AddComputedM(const Action& action) {
       Word& word = AddWord(row.op, action.first, action.last);
       word.index =
           row.op == WordOp::kSpindle || row.op == WordOp::kAux ? static_cast<std::uint8_t>(extension) : row.index;
-      word.extra = row.extra;
+      if (row.op != WordOp::kAux) word.extra = row.extra;
       word.phase = row.phase;
       word.flags = Word::kEqualSign;
       word.spelling = CodeSpelling(row_number);

@@ -202,6 +202,8 @@ class Builder {
   }
 
   void ReportUnclosed(const Dropped& entry) {
+    // A mark that the frontend refused has its finding already.
+    if (module_.words[entry.word].op == WordOp::kVerbatim) return;
     const Word& word = module_.words[entry.word];
     const Mark kind = MarkOf(OpOf(word));
     auto& finding = sink_.Report(diag::Code::kUnclosedStructure, RangeOf(entry.block, entry.word), TextOf(entry.word),

@@ -141,6 +141,9 @@ constexpr SystemRow kTool{"TC_TP", K::kEnvironment, Type::kInt, true, 1};
 // Machine and setting data: any type, any number of indices.
 constexpr SystemRow kData{"M", K::kEnvironment, Type::kAny, false, 0xFF};
 
+// Other variables of the control: their names begin with the letters of section 9, what they hold is not modelled.
+constexpr SystemRow kOther{"A", K::kEnvironment, Type::kAny, true, 0xFF};
+
 bool StartsWith(std::string_view text, std::string_view start) { return text.substr(0, start.size()) == start; }
 
 }  // namespace
@@ -157,6 +160,9 @@ const SystemRow* FindSystemVariable(std::string_view name) {
   if (StartsWith(name, "TC_TP")) return &kTool;
   for (const std::string_view start : {"MN_", "MC_", "MA_", "MAS_", "SN_", "SC_", "SA_"}) {
     if (StartsWith(name, start)) return &kData;
+  }
+  for (const std::string_view start : {"A_", "AA_", "AC_", "AN_", "P_", "VA_", "VC_", "VN_", "TC_", "C_", "ON_", "OC_", "OA_"}) {
+    if (StartsWith(name, start)) return &kOther;
   }
   return nullptr;
 }

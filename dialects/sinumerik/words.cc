@@ -123,7 +123,7 @@ constexpr std::string_view kAttributes[] = {
 };
 constexpr std::string_view kFlags[] = {"SYNR", "SYNW", "SYNRW", "INIPO", "INIRE", "INICF", "PRLOC"};
 constexpr std::string_view kValues[] = {"PHU", "APR", "APW", "APX", "APRP", "APWP", "APRB", "APWB"};
-constexpr std::string_view kInertProcedures[] = {"GROUP_BEGIN", "GROUP_END", "BRISKA", "SOFTA"};
+constexpr std::string_view kInertProcedures[] = {"GROUP_BEGIN", "GROUP_END", "BRISKA", "SOFTA", "SETMS"};
 
 }  // namespace
 

@@ -77,7 +77,8 @@ struct SystemRow {
 };
 std::span<const SystemRow> SystemVariables();
 /// What is known of `$NAME` (upper case, without `$`); also machine and setting data by the pattern of their names
-/// (MN_ MC_ MA_ MAS_ SN_ SC_ SA_). Null = not known.
+/// (MN_ MC_ MA_ MAS_ SN_ SC_ SA_), and other variables by the letters in front (AA_ AC_ P_ ...), which only the machine
+/// knows. Null = no system variable.
 const SystemRow* FindSystemVariable(std::string_view name);
 
 /// Words of PROC blocks behind the parameters; only SAVE changes what a run does.

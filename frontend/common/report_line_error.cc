@@ -14,7 +14,7 @@ void ReportLineError(const LineError& error, std::string_view line, SourceRange 
     return begin <= line.size() ? line.substr(begin, length) : std::string_view();
   };
   std::string_view word = slice(error.begin, error.length);
-  if (word.empty()) word = "the end of the block";
+  if (word.empty()) word = error.code == Code::kUnexpectedText ? "end of the block" : "the end of the block";
   const std::string_view detail = error.detail != nullptr ? error.detail : "";
   diag::Diagnostic* finding = nullptr;
   switch (error.code) {

@@ -171,7 +171,7 @@ class Compiler {
     } else if (auto* workpiece = dynamic_cast<P::WorkpieceItemContext*>(item)) {
       Add(Step::kWorkpiece, item, 0, Arguments(workpiece->arguments()));
     } else if (auto* inert = dynamic_cast<P::InertCallItemContext*>(item)) {
-      Add(Step::kInertTextDrop, item, 0, Arguments(inert->arguments()));
+      Add(Step::kInertCall, item, 0, inert->arguments() != nullptr ? Arguments(inert->arguments()) : 0);
     } else if (dynamic_cast<P::AttributeItemContext*>(item) != nullptr) {
       Add(Step::kInertText, item);
     } else if (auto* ret = dynamic_cast<P::ReturnItemContext*>(item)) {
@@ -357,6 +357,9 @@ class Compiler {
       first = First(call->callee());
       count = Arguments(call->arguments());
       arg = kCallBrackets | kCallNamed;
+    } else if (call->SubName() != nullptr) {
+      first = Index(call->SubName());
+      arg = kCallNamed | kCallSubName;
     } else if (call->expression() != nullptr) {
       Expression(call->expression());
       arg = kCallWithName;

@@ -66,6 +66,7 @@ class Lowering {
   bool FillAddress(ir::Word& word, const Row& row, const Token& token);
   bool AddComputedM(const Action& action);
   bool AddInertText(const Action& action);
+  bool AddInertCall(const Action& action);
   bool OnceAxis(std::uint8_t axis, const Token& token);
   bool OnceAddress(std::uint32_t row, const Token& token);
   bool TakeMode(ir::Word& word, std::uint8_t allowed);

@@ -43,6 +43,20 @@ ir::AlarmKind KindOf(double number) {
 
 }  // namespace
 
+// Procedures that change nothing a run shows. SETMS makes a spindle the master: only the first one, which is the master
+// anyway, since another is refused here.
+bool Lowering::AddInertCall(const Action& action) {
+  const Token& token = At(action.first);
+  if (dialects::sinumerik::InertProcedures()[token.data] == "SETMS") {
+    std::uint32_t spindle = 1;
+    if (action.count > 1 || (action.count == 1 && (!LiteralInt(values_.back(), 1, spindle) || spindle != 1))) {
+      return Fail(Code::kNotSupported, token, "SETMS and SETMS(1) are translated");
+    }
+  }
+  values_.resize(values_.size() - action.count);
+  return AddInertText(action);
+}
+
 bool Lowering::DoFlow(const Action& action) {
   const Token& token = At(action.first);
   ir::Target target;
@@ -122,9 +136,8 @@ bool Lowering::DoFlow(const Action& action) {
       AddWord(WordOp::kWorkpiece, action.first, action.last).extra = id.value;
       return true;
     }
-    case Step::kInertTextDrop:
-      values_.resize(values_.size() - action.count);
-      return AddInertText(action);
+    case Step::kInertCall:
+      return AddInertCall(action);
     case Step::kInertText:
       return AddInertText(action);
     case Step::kReturn: {
@@ -186,7 +199,9 @@ bool Lowering::DoCall(const Action& action) {
     }
     case Step::kTextCall: {
       call.form = ir::CallForm::kText;
-      if ((action.arg & kCallNamed) != 0) {
+      if ((action.arg & kCallSubName) != 0) {
+        call.name = token.Text();
+      } else if ((action.arg & kCallNamed) != 0) {
         // CALL NAME(args): the name is a variable that holds the program's name.
         call.args = TakeArguments(action.count);
         ir::Expr name;
@@ -201,7 +216,7 @@ bool Lowering::DoCall(const Action& action) {
         call.form = ir::CallForm::kBlockRange;
         call.to = TakeTarget();
         call.from = TakeTarget();
-      } else if (!call.name_expr.Valid()) {
+      } else if (!call.name_expr.Valid() && !call.name.Valid()) {
         return Fail(Code::kMissingValue, token, "name the program to call");
       }
       const std::uint32_t first = (action.arg & kCallNamed) != 0 ? action.first - 1U : action.first;

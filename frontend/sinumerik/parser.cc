@@ -52,6 +52,19 @@ const char* NameOfKind(std::size_t kind) {
   }
 }
 
+/// Kinds that words of the language make, as against numbers, addresses, operators.
+bool IsReserved(TokenKind kind) {
+  switch (kind) {
+    case TokenKind::kAxisAt:
+    case TokenKind::kBoolean:
+    case TokenKind::kDivideInteger:
+    case TokenKind::kModulo:
+      return true;
+    default:
+      return kind >= TokenKind::kFunction && kind <= TokenKind::kInertCall && kind != TokenKind::kPath;
+  }
+}
+
 }  // namespace
 
 Recipe BlockParser::Parse(std::span<const Token> tokens) {
@@ -75,6 +88,8 @@ Recipe BlockParser::Parse(std::span<const Token> tokens) {
       recipe.error.token = static_cast<std::uint16_t>(call_before ? at - 1 : at);
       recipe.error.expected = nullptr;
       recipe.error.help = "a subprogram call has a block of its own; a variable is set with =";
+    } else if (strategy.OnlyExpected() == Parser::Name && IsReserved(kind_at(at))) {
+      recipe.error.code = diag::Code::kReservedName;
     } else if (kind_at(at) == TokenKind::kBlockNumber) {
       recipe.error.help = "the block number stands at the start of the block";
     }

@@ -52,7 +52,7 @@ enum class Step : std::uint8_t {
   kPreprocessStop,  // first .. last
   kWorkpiece,       // first .. last; pops `count` arguments
   kInertText,       // first .. last: kept as text
-  kInertTextDrop,   // as kInertText; pops `count` arguments
+  kInertCall,       // first .. last: kept as text; pops `count` arguments
   kReturn,          // first .. last; pops `count` arguments
   // Structure marks.
   kMark,  // first .. last, arg = WordOp; pops `count` values
@@ -94,6 +94,7 @@ inline constexpr std::uint8_t kCallRange = 4;   // two targets wait
 inline constexpr std::uint8_t kCallNamed =
     8;  // kTextCall: `first` is a name with arguments; kModalCall: not the cancelling form
 inline constexpr std::uint8_t kCallWithName = 16;  // kTextCall: the name is on the stack
+inline constexpr std::uint8_t kCallSubName = 32;   // kTextCall: `first` is an L name
 inline constexpr std::uint8_t kPartSingle = 1;     // REPEATB
 inline constexpr std::uint8_t kPartLast = 4;       // two targets wait
 

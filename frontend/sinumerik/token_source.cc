@@ -128,6 +128,14 @@ const Macros::Macro* Macros::Find(std::string_view upper) const {
 
 const Token* TokenSource::Refused() const { return refused_ != 0 && !defines_ ? &tokens_[refused_ - 1] : nullptr; }
 
+bool TokenSource::OnlyHead() const {
+  for (const Token& token : tokens_) {
+    const auto kind = static_cast<K>(token.kind);
+    if (kind != K::kSkip && kind != K::kBlockNumber && kind != K::kMainNumber && kind != K::kLabel) return false;
+  }
+  return true;
+}
+
 Token& TokenSource::Push(K kind, const char* from, const char* to) {
   Token& token = tokens_.emplace_back();
   token.kind = static_cast<std::uint16_t>(kind);
@@ -338,7 +346,7 @@ void TokenSource::LexIdentifier(Cursor& c, const char* word_end) {
     Push(K::kName, from, word_end).data = strings_.Intern(text).value;
     return;
   }
-  if (IsStructureWord(entry->kind) && structure_ == K::kNone) structure_ = entry->kind;
+  if (IsStructureWord(entry->kind) && OnlyHead()) structure_ = entry->kind;
   Token& token = Push(entry->kind, from, word_end);
   token.sub = entry->sub;
   token.digits = entry->digits;

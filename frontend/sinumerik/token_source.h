@@ -57,7 +57,8 @@ class TokenSource {
   [[nodiscard]] const LineError* Error() const { return failed_ ? &error_ : nullptr; }
   /// First word that is known and refused; null = none.
   [[nodiscard]] const Token* Refused() const;
-  /// First structure keyword of the line, or kNone: its block keeps its place in the structure even if it is refused.
+  /// Structure keyword that the block starts with, or kNone: its block keeps its place in the structure even if it is
+  /// refused.
   [[nodiscard]] TokenKind StructureWord() const { return structure_; }
 
  private:
@@ -98,6 +99,8 @@ class TokenSource {
     return tokens_.empty() ? TokenKind::kNone : static_cast<TokenKind>(tokens_.back().kind);
   }
   [[nodiscard]] bool WantsTarget() const;
+  /// Nothing but skip level, number and label so far.
+  [[nodiscard]] bool OnlyHead() const;
 
   StringPool& strings_;
   std::vector<Token> tokens_;

@@ -44,7 +44,7 @@ item
   | SetAlarm LeftParen expression (Comma expression)? RightParen  # alarmItem
   | PreprocessStop (LeftParen RightParen)?                        # preprocessStopItem
   | Workpiece LeftParen arguments RightParen                      # workpieceItem
-  | InertCall LeftParen arguments RightParen                      # inertCallItem
+  | InertCall (LeftParen arguments RightParen)?                   # inertCallItem
   | Attribute                                                     # attributeItem
   | Return (LeftParen arguments RightParen)?                      # returnItem
   ;
@@ -87,7 +87,7 @@ structure
 call
   : callee (LeftParen arguments RightParen)? passes?                                     # nameCall
   | ModalCall (callee (LeftParen arguments RightParen)?)?                                # modalCall
-  | Call (callee LeftParen arguments RightParen | expression)? (BlockRange target To target)? passes?  # textCall
+  | Call (callee LeftParen arguments RightParen | SubName | expression)? (BlockRange target To target)? passes?  # textCall
   | PathCall Path (LeftParen arguments RightParen)? passes?                              # pathCall
   | ExternalCall expression                                                              # externalCall
   | Repeat target target? passes?                                                        # repeatPart

@@ -319,4 +319,30 @@ TEST_CASE("limits end in findings") {
   CHECK(result.WordAt(3).op == WordOp::kAxis);
 }
 
+TEST_CASE("what was meant: a reserved name, a refused opener, the end of the block") {
+  ReadResult result;
+  ReadInto(result, "DEF INT VAR=1\nWHILE R1 LT R2\nR1=\nCASE R1 OF\n");
+  CHECK(result.Findings() ==
+        "NC2008 1:9 VAR is a word of the language and cannot be a name\n"
+        "NC1002 2:10 unexpected LT\n"
+        "NC1002 3:4 unexpected end of the block\n"
+        "NC1002 4:11 unexpected end of the block\n");
+}
+
+TEST_CASE("SETMS leaves the first spindle the master") {
+  ReadResult result;
+  ReadInto(result, "SETMS\nSETMS(1)\nSETMS(2)\n");
+  CHECK(result.Findings() == "NC1019 3:1 SETMS is a word of the control that ncport does not translate\n");
+  CHECK(TextOf(result, result.WordAt(2)) == "SETMS(1)");
+}
+
+TEST_CASE("CALL of a part of an L program") {
+  ReadResult result;
+  ReadInto(result, "CALL L350 BLOCK N20 TO \"N\"<<50\n", {.resolve = false});
+  CHECK(result.Findings().empty());
+  const ir::Call& call = result.module.calls[result.WordAt(1).Extra<ir::CallId>()];
+  CHECK(result.module.View(call.name) == "L350");
+  CHECK(call.from.kind == ir::TargetKind::kNumber);
+}
+
 }  // namespace ncport::frontend::sinumerik

@@ -79,6 +79,19 @@ bool FlatWriter::AppendSpeed(const dialects::Setting<std::string>& form, std::st
   return true;
 }
 
+/// Writes the word of a spindle sense. Which spindle M3 turns depends on the machine: an open setting is refused, never
+/// guessed.
+bool FlatWriter::PutSense(const dialects::Setting<std::string>& word) {
+  if (word.Known()) {
+    Put(*word);
+    return true;
+  }
+  if (diag::Diagnostic* finding = Refuse(diag::Code::kOpenKey, target_.name, word.Key()); finding != nullptr) {
+    finding->help = fmt::format("add to a profile file: {} = the word of this machine", word.Key());
+  }
+  return false;
+}
+
 void FlatWriter::Spindle(const exec::Event& event) {
   if (event.spindle != 0) {
     Refuse(diag::Code::kNotExpressible, fmt::format("spindle {}", event.spindle));
@@ -114,15 +127,20 @@ void FlatWriter::Spindle(const exec::Event& event) {
     }
     if (lathe_ && !std::exchange(speed_is_rpm_, true)) feed_mode_ = ir::FeedMode::kUnknown;
   } else {
+    bool senseless = false;
     switch (event.spindle_state) {
-      case ir::SpindleState::kCw: Put(target_.spindle.cw.Or("M3")); break;
-      case ir::SpindleState::kCcw: Put(target_.spindle.ccw.Or("M4")); break;
-      case ir::SpindleState::kStop: Put(target_.spindle.stop.Or("M5")); break;
+      case ir::SpindleState::kCw: senseless = !PutSense(target_.spindle.cw); break;
+      case ir::SpindleState::kCcw: senseless = !PutSense(target_.spindle.ccw); break;
+      case ir::SpindleState::kStop: senseless = !PutSense(target_.spindle.stop); break;
       case ir::SpindleState::kPositioned:
       case ir::SpindleState::kUnknown:
         if (open_before == 0) out_.Truncate(line_begin_);
         Refuse(diag::Code::kNotExpressible, "a spindle position");
         return;
+    }
+    if (senseless) {
+      if (open_before == 0) out_.Truncate(line_begin_);
+      return;
     }
   }
   open_words_ |= bit;

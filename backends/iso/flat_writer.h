@@ -105,6 +105,7 @@ class FlatWriter final : public exec::EventSink {
   // flat_functions.cc: spindle, tool, offsets, M functions, stops
   void Spindle(const exec::Event& event);
   bool AppendSpeed(const dialects::Setting<std::string>& form, std::string_view usual, double speed);
+  bool PutSense(const dialects::Setting<std::string>& word);
   void FlushPending(const exec::Event* next);
   void ToolCall(const exec::Event& event);
   void Offset(const exec::Event& event);

@@ -12,6 +12,15 @@ namespace {
 using exec::Event;
 using exec::EventKind;
 
+/// A profile that leaves all but the spindle's words open.
+dialects::Profile WithSpindleWords() {
+  dialects::Profile profile;
+  profile.spindle.cw.Set("M3");
+  profile.spindle.ccw.Set("M4");
+  profile.spindle.stop.Set("M5");
+  return profile;
+}
+
 /// A module with numbered blocks for events to come from, and a writer for one machine.
 struct Bench {
   explicit Bench(bool lathe = false) {
@@ -68,7 +77,7 @@ struct Bench {
   SourceFiles files;
   FileId file;
   ir::Module module;
-  dialects::Profile profile;
+  dialects::Profile profile = WithSpindleWords();
   dialects::Config config;
   FlatOptions options;
   std::string text;
@@ -175,6 +184,20 @@ TEST_CASE("the speed limit stands in front of the surface speed, whatever their 
         "M3\n"
         "G95 G1 X20. Z0. F0.2\n"
         "M30\n");
+}
+
+TEST_CASE("a spindle word that the profile leaves open is refused, not guessed") {
+  Bench bench;
+  bench.profile.name = "mazak-integrex-new";
+  bench.profile.spindle.cw.Ask();
+  bench.profile.spindle.cw.SetKey("spindle.cw");
+  Event event = bench.Make(EventKind::kSpindle);
+  event.spindle_state = ir::SpindleState::kCw;
+  bench.Send(event);
+  CHECK(bench.Finish().find("M3\n") == std::string::npos);
+  REQUIRE(bench.sink.All().size() == 1);
+  CHECK(bench.sink.HasErrors());
+  CHECK(bench.sink.All()[0].message == "profile mazak-integrex-new leaves spindle.cw open");
 }
 
 TEST_CASE("speed and sense of one block share a flat block") {

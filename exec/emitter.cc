@@ -35,6 +35,7 @@ Event& Emitter::BeginMotion(EventKind kind, const double* from) {
 }
 
 void Emitter::Send(const Event& event) {
+  if (session_.halted) return;  // the block has failed: nothing of it happens any more
   if (!holding_) {
     SendNow(event);
     return;

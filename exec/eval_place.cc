@@ -196,6 +196,7 @@ void Evaluator::Store(const Place& place, const Value& value, std::uint32_t offs
   if (machine_.numeric_model == ir::NumericModel::kNum8 && converted.type == Type::kReal) {
     const ops::Number stored = ops::Store(converted.number, machine_.numeric_model);
     session_.Alarm(stored.error);
+    if (!stored.Ok()) return;
     converted.number = stored.value;
   }
   if (place.cell_max > 0 && std::fabs(converted.number) > place.cell_max) {

@@ -1,0 +1,54 @@
+// What must hold for a random program, stage by stage: each direction prints it, reads it back and compares what the
+// machine does.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "dialects/profile.h"
+#include "ir/machine.h"
+#include "ir/module.h"
+#include "tests/random/features.h"
+
+namespace ncport::tests::random {
+
+/// A program and the machine it is for.
+struct Subject {
+  const ir::Module* module = nullptr;
+  ir::ProgramId main;
+  const dialects::Profile* profile = nullptr;
+  const ir::Machine* machine = nullptr;
+  std::uint64_t max_blocks = 200'000;
+};
+
+enum class Verdict : std::uint8_t { kAgrees, kRefused, kFails };
+
+/// How a check ended.
+struct Finding {
+  Verdict verdict = Verdict::kAgrees;
+  std::string stage;     // "verify", "run NC5008", "read back", "compare" ...: shrinking keeps it
+  std::string text;      // what was found
+  std::string artefact;  // the program text or dump that shows it
+};
+
+/// One way of a program through the compiler.
+struct Direction {
+  std::string_view name;  // --direction
+  std::string_view title;
+  Flavour flavour;
+  std::string_view mill, lathe;  // profiles of the source
+  Finding (*check)(const Subject& subject, const Direction& direction);
+  std::string_view target_mill = {}, target_lathe = {};
+  std::string_view without = {};  // weights for what the target cannot say: "frame=0,..."
+};
+std::span<const Direction> Directions();
+const Direction* FindDirection(std::string_view name);
+
+/// The reason of a refusal as tests/refusals.txt lists it: the code of the first error.
+/// A code that is not listed there is a failure.
+bool IsListedRefusal(std::string_view code);
+
+}  // namespace ncport::tests::random

@@ -1,5 +1,7 @@
 #include "ir/transform/absolute_dimensions.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <optional>
 #include <set>
@@ -7,8 +9,6 @@
 #include <string_view>
 #include <utility>
 #include <vector>
-
-#include <fmt/format.h>
 
 #include "ir/analysis/call_graph.h"
 #include "ir/analysis/cfg.h"
@@ -30,7 +30,7 @@ constexpr std::string_view kAxisNames = "XYZABCUVW";
 struct Position {
   enum class Kind : std::uint8_t { kNoWay, kUnknown, kKnown };
   Kind kind = Kind::kNoWay;
-  LinearForm form;   // in the target's terms: diameter or radius, mm
+  LinearForm form;  // in the target's terms: diameter or radius, mm
 };
 using Positions = std::array<Position, kMaxAxes>;
 
@@ -40,7 +40,7 @@ enum class Step : std::uint8_t { kNone, kAbsolute, kIncremental, kLost };
 /// What the programs below a call move and write.
 struct Effects {
   std::uint16_t axes = 0;
-  bool writes_shared = false;   // cells or variables that its caller sees
+  bool writes_shared = false;  // cells or variables that its caller sees
 };
 
 class Pass {
@@ -73,7 +73,7 @@ class Pass {
 
   // Values.
   struct Scale {
-    double factor = 1;      // source number -> target number
+    double factor = 1;  // source number -> target number
     bool incremental = false;
     bool known = true;
   };
@@ -82,7 +82,9 @@ class Pass {
     return state.units == Units::kInch || state.units == Units::kInchGeometry ? kInch : 1;
   }
   ExprId Scaled(ExprId value, double factor);
-  [[nodiscard]] LinearForm ScaledForm(ExprId value, double factor) const { return Sum(module_, {}, FormOf(module_, value), factor); }
+  [[nodiscard]] LinearForm ScaledForm(ExprId value, double factor) const {
+    return Sum(module_, {}, FormOf(module_, value), factor);
+  }
   ExprId Held(std::uint8_t axis);
   void Save(BlockId block, std::uint8_t axis, Position& position, bool before, bool emit);
   void RewriteWords(BlockId block, const Positions& in);
@@ -103,18 +105,18 @@ class Pass {
   analysis::FlowGraphs graphs_;
   analysis::CallGraph calls_;
   analysis::ModalFlow flow_;
-  std::vector<Effects> effects_;   // per program
+  std::vector<Effects> effects_;  // per program
 
   // Of the program at hand.
   ProgramId program_;
   IdRange<BlockId> blocks_;
-  std::vector<std::uint16_t> live_;         // per block: bit per axis whose position on arrival is used
-  std::vector<std::uint16_t> carry_live_;   // bit per axis whose held position is used behind the block
-  std::vector<std::uint16_t> carried_;      // bit per axis that arrives in its local
+  std::vector<std::uint16_t> live_;        // per block: bit per axis whose position on arrival is used
+  std::vector<std::uint16_t> carry_live_;  // bit per axis whose held position is used behind the block
+  std::vector<std::uint16_t> carried_;     // bit per axis that arrives in its local
   std::vector<Positions> in_;
   std::array<VariableId, kMaxAxes> held_{};
   std::optional<ProgramEditor> editor_;
-  std::vector<std::pair<WordId, Word>> rewritten_;   // axis words, changed when all blocks were looked at
+  std::vector<std::pair<WordId, Word>> rewritten_;  // axis words, changed when all blocks were looked at
   bool ok_ = true;
 };
 
@@ -151,13 +153,16 @@ const Word* Pass::WordFor(BlockId block, std::uint8_t axis) const {
 }
 
 bool Pass::Conditional(const Block& block) const {
-  return block.skip_level != Block::kNoSkip || Has(module_, block, WordOp::kWhen) || Has(module_, block, WordOp::kSkipRest);
+  return block.skip_level != Block::kNoSkip || Has(module_, block, WordOp::kWhen) ||
+         Has(module_, block, WordOp::kSkipRest);
 }
 
 void Pass::Unknown(BlockId block, const Word& word, std::uint8_t axis) {
   ok_ = false;
-  sink_.Report(diag::Code::kUnknownPosition, module_.RangeOf(module_.blocks[block], word), std::string(1, kAxisNames[axis])).help =
-      "program the axis once with an absolute word before the increment, on every way that leads here";
+  sink_
+      .Report(diag::Code::kUnknownPosition, module_.RangeOf(module_.blocks[block], word),
+              std::string(1, kAxisNames[axis]))
+      .help = "program the axis once with an absolute word before the increment, on every way that leads here";
 }
 
 void Pass::FindEffects() {
@@ -171,11 +176,13 @@ void Pass::FindEffects() {
         for (const WordId id : module_.blocks[block].words) {
           const Word& word = module_.words[id];
           if (word.op == WordOp::kAxis) now.axes = static_cast<std::uint16_t>(now.axes | (1U << word.index));
-          if (word.op == WordOp::kAxisComputed || word.op == WordOp::kPolarAngle || word.op == WordOp::kPolarRadius) now.axes = 0xFFFF;
+          if (word.op == WordOp::kAxisComputed || word.op == WordOp::kPolarAngle || word.op == WordOp::kPolarRadius)
+            now.axes = 0xFFFF;
           if (word.op == WordOp::kAssign) {
             const Expr& place = module_.exprs[word.Extra<ExprId>()];
             const bool own = (place.op == ExprOp::kVariable || place.op == ExprOp::kElement) &&
-                             module_.variables[VariableId{place.a}].owner == program && !module_.variables[VariableId{place.a}].by_reference;
+                             module_.variables[VariableId{place.a}].owner == program &&
+                             !module_.variables[VariableId{place.a}].by_reference;
             now.writes_shared = now.writes_shared || !own;
           }
           if (word.op == WordOp::kCall || word.op == WordOp::kModalCall) {
@@ -206,7 +213,7 @@ Pass::Scale Pass::ScaleOf(const Word& word, std::uint8_t axis, const ModalState&
     sink_.Report(diag::Code::kUnknownModalState, module_.RangeOf(module_.blocks[block], word), group,
                  "the programs that lead here leave it open");
   };
-  bool diameter = false;   // the number is a diameter
+  bool diameter = false;  // the number is a diameter
   const bool transverse = axis == source_.transverse_axis;
   switch (word.mode) {
     case ValueMode::kModal:
@@ -233,7 +240,8 @@ Pass::Scale Pass::ScaleOf(const Word& word, std::uint8_t axis, const ModalState&
     default:
       if (!transverse) break;
       if (state.diameter == Diameter::kUnknown) unknown("the diameter mode");
-      diameter = state.diameter == Diameter::kDiameter || (state.diameter == Diameter::kDiameterAbsolute && !scale.incremental);
+      diameter = state.diameter == Diameter::kDiameter ||
+                 (state.diameter == Diameter::kDiameterAbsolute && !scale.incremental);
       break;
   }
   const bool wants_diameter = axis == config_.diameter_axis;
@@ -246,8 +254,8 @@ Step Pass::StepOf(BlockId id, std::uint8_t axis) const {
   const Block& block = module_.blocks[id];
   const Word* word = WordFor(id, axis);
   const auto plane_axes = [&] {
-    return Has(module_, block, WordOp::kPolarAngle) || Has(module_, block, WordOp::kPolarRadius) || Has(module_, block, WordOp::kOpeningAngle) ||
-           Has(module_, block, WordOp::kContourAngle);
+    return Has(module_, block, WordOp::kPolarAngle) || Has(module_, block, WordOp::kPolarRadius) ||
+           Has(module_, block, WordOp::kOpeningAngle) || Has(module_, block, WordOp::kContourAngle);
   };
   for (const WordId word_id : block.words) {
     const Word& call = module_.words[word_id];
@@ -256,8 +264,10 @@ Step Pass::StepOf(BlockId id, std::uint8_t axis) const {
     const std::uint16_t axes = callee.Valid() ? effects_[callee.value].axes : 0xFFFF;
     if (axes >> axis & 1U) return Step::kLost;
   }
-  if (Has(module_, block, WordOp::kAxisComputed) || plane_axes()) return word != nullptr && !plane_axes() ? Step::kAbsolute : Step::kLost;
-  if (Has(module_, block, WordOp::kFrame) || Has(module_, block, WordOp::kWorkOffset) || Has(module_, block, WordOp::kPresetPosition)) {
+  if (Has(module_, block, WordOp::kAxisComputed) || plane_axes())
+    return word != nullptr && !plane_axes() ? Step::kAbsolute : Step::kLost;
+  if (Has(module_, block, WordOp::kFrame) || Has(module_, block, WordOp::kWorkOffset) ||
+      Has(module_, block, WordOp::kPresetPosition)) {
     // The zero point moves: what the axis stands at is another number now.
     if (word == nullptr || !AxisWordsAreMoves(module_, block)) return Step::kLost;
   }
@@ -294,7 +304,8 @@ void Pass::FindLive() {
       if (UsesPosition(blocks_[i], axis)) uses[i] = static_cast<std::uint16_t>(uses[i] | (1U << axis));
       const Step step = StepOf(blocks_[i], axis);
       const bool always = !Conditional(module_.blocks[blocks_[i]]);
-      if ((step == Step::kAbsolute || step == Step::kLost) && always) sets[i] = static_cast<std::uint16_t>(sets[i] | (1U << axis));
+      if ((step == Step::kAbsolute || step == Step::kLost) && always)
+        sets[i] = static_cast<std::uint16_t>(sets[i] | (1U << axis));
     }
   }
   const analysis::Cfg& graph = graphs_.Of(program_);
@@ -338,7 +349,8 @@ void Pass::FindCarryLive() {
 }
 
 ExprId Pass::Held(std::uint8_t axis) {
-  if (!held_[axis].Valid()) held_[axis] = NewLocal(module_, program_, fmt::format("POS_{}", kAxisNames[axis]), Type::kReal);
+  if (!held_[axis].Valid())
+    held_[axis] = NewLocal(module_, program_, fmt::format("POS_{}", kAxisNames[axis]), Type::kReal);
   return make_.Variable(held_[axis]);
 }
 
@@ -367,7 +379,8 @@ bool Pass::ReadsShared(const LinearForm& form) const {
   for (const LinearForm::Term& term : form.terms) {
     VisitReads(module_, term.atom, [&](ExprId id) {
       const Expr& read = module_.exprs[id];
-      const bool own = (read.op == ExprOp::kVariable || read.op == ExprOp::kElement) && module_.variables[VariableId{read.a}].owner == program_ &&
+      const bool own = (read.op == ExprOp::kVariable || read.op == ExprOp::kElement) &&
+                       module_.variables[VariableId{read.a}].owner == program_ &&
                        !module_.variables[VariableId{read.a}].by_reference;
       shared = shared || !own;
     });
@@ -424,13 +437,15 @@ void Pass::Through(BlockId id, Positions& positions, bool emit) {
     for (const WordId word_id : block.words) {
       const Word& word = module_.words[word_id];
       if (word.op == WordOp::kAssign) changes = changes || ReadsPlace(position.form, word.Extra<ExprId>());
-      if (word.op == WordOp::kFor) changes = changes || ReadsPlace(position.form, module_.fors[word.Extra<ForId>()].variable);
+      if (word.op == WordOp::kFor)
+        changes = changes || ReadsPlace(position.form, module_.fors[word.Extra<ForId>()].variable);
     }
     // The counter of FOR changes at its ENDFOR too.
     if (Has(module_, block, WordOp::kEndFor) && block.link.Valid()) {
       for (const WordId word_id : module_.blocks[block.link].words) {
         const Word& word = module_.words[word_id];
-        if (word.op == WordOp::kFor) changes = changes || ReadsPlace(position.form, module_.fors[word.Extra<ForId>()].variable);
+        if (word.op == WordOp::kFor)
+          changes = changes || ReadsPlace(position.form, module_.fors[word.Extra<ForId>()].variable);
       }
     }
     if (changes) Save(id, axis, position, true, emit);
@@ -455,7 +470,8 @@ void Pass::Through(BlockId id, Positions& positions, bool emit) {
     const LinearForm value = ScaledForm(word.value, scale.factor);
     position.form = step == Step::kIncremental ? Sum(module_, position.form, value) : value;
     position.kind = Position::Kind::kKnown;
-    if (Conditional(block) && !(before.kind == Position::Kind::kKnown && SameForm(module_, before.form, position.form))) {
+    if (Conditional(block) &&
+        !(before.kind == Position::Kind::kKnown && SameForm(module_, before.form, position.form))) {
       position = {Position::Kind::kUnknown, {}};  // the block may be skipped
       continue;
     }
@@ -471,7 +487,8 @@ bool Pass::Join(BlockId block, Positions& at, const Positions& from) {
     Position& position = at[axis];
     const Position& other = from[axis];
     if (other.kind == Position::Kind::kNoWay) continue;
-    if ((carried_[index] >> axis & 1U) && other.kind == Position::Kind::kKnown && position.kind != Position::Kind::kUnknown) {
+    if ((carried_[index] >> axis & 1U) && other.kind == Position::Kind::kKnown &&
+        position.kind != Position::Kind::kUnknown) {
       if (position.kind == Position::Kind::kNoWay) {
         position = {Position::Kind::kKnown, FormOf(module_, Held(axis))};
         changed = true;
@@ -536,7 +553,8 @@ void Pass::RewriteCenters(BlockId id, const Positions& in) {
   const ModalState state = flow_.At(program_, id);
   for (const WordId word_id : module_.blocks[id].words) {
     Word word = module_.words[word_id];
-    if (word.op == WordOp::kRadius || word.op == WordOp::kChamfer || (word.op == WordOp::kCenter && word.mode != ValueMode::kAbsolute)) {
+    if (word.op == WordOp::kRadius || word.op == WordOp::kChamfer ||
+        (word.op == WordOp::kCenter && word.mode != ValueMode::kAbsolute)) {
       word.value = Scaled(word.value, UnitFactor(state));
     } else if (word.op == WordOp::kFeed && state.units == Units::kInch && state.feed_mode != FeedMode::kInverseTime) {
       word.value = Scaled(word.value, kInch);
@@ -598,7 +616,8 @@ void Pass::DropModeWords() {
     Block changed = block;
     editor.SetWords(changed, kept);
     module_.blocks[id].words = changed.words;
-    if (kept.empty() && !block.label.Valid() && block.number == Block::kNoNumber && block.comments.Empty()) editor.Remove(id);
+    if (kept.empty() && !block.label.Valid() && block.number == Block::kNoNumber && block.comments.Empty())
+      editor.Remove(id);
   }
   editor.Apply();
 }
@@ -643,7 +662,8 @@ bool Pass::Run() {
 
 }  // namespace
 
-bool AbsoluteDimensions(Module& module, const Machine& source, const AbsoluteDimensionsConfig& config, diag::Sink& sink) {
+bool AbsoluteDimensions(Module& module, const Machine& source, const AbsoluteDimensionsConfig& config,
+                        diag::Sink& sink) {
   return Pass(module, source, config, sink).Run();
 }
 

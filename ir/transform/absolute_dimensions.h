@@ -1,10 +1,10 @@
-// Writes every dimension word as an absolute one in the terms of the target, so that no later pass or printer depends on the
-// distance, diameter or unit mode in force (design 4.4): an increment becomes the position it leads to. Positions are kept as
-// sums; where ways with different sums meet, or a variable of a sum changes, the position is held in a local (POS_X). A step
-// away and back costs nothing, and nothing is rounded on the way: no drift.
+// Writes every dimension word as an absolute one in the terms of the target, so that no later pass or printer depends
+// on the distance, diameter or unit mode in force (design 4.4): an increment becomes the position it leads to.
+// Positions are kept as sums; where ways with different sums meet, or a variable of a sum changes, the position is held
+// in a local (POS_X). A step away and back costs nothing, and nothing is rounded on the way: no drift.
 //
-// Afterwards all Axis words are kAbsolute and all Center words kStep (from the start point, radius), Distance and Diameter
-// words are gone, and lengths are mm.
+// Afterwards all Axis words are kAbsolute and all Center words kStep (from the start point, radius), Distance and
+// Diameter words are gone, and lengths are mm.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,13 @@
 namespace ncport::ir::transform {
 
 struct AbsoluteDimensionsConfig {
-  std::uint8_t diameter_axis = 0xFF;   // of the target: its words are diameters; 0xFF = none
-  ModalState sub_entry;                // state of subprograms that nothing in the module calls ([entry])
+  std::uint8_t diameter_axis = 0xFF;  // of the target: its words are diameters; 0xFF = none
+  ModalState sub_entry;               // state of subprograms that nothing in the module calls ([entry])
 };
 
-/// All programs of the module. An increment from a position that is not known, and a word under a mode that is not one value
-/// there, are findings (NC5001, NC5006) at the word; returns false then.
-bool AbsoluteDimensions(Module& module, const Machine& source, const AbsoluteDimensionsConfig& config, diag::Sink& sink);
+/// All programs of the module. An increment from a position that is not known, and a word under a mode that is not one
+/// value there, are findings (NC5001, NC5006) at the word; returns false then.
+bool AbsoluteDimensions(Module& module, const Machine& source, const AbsoluteDimensionsConfig& config,
+                        diag::Sink& sink);
 
 }  // namespace ncport::ir::transform

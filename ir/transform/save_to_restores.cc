@@ -1,0 +1,138 @@
+#include "ir/transform/save_to_restores.h"
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "ir/analysis/call_graph.h"
+#include "ir/analysis/cfg.h"
+#include "ir/analysis/modal_state.h"
+#include "ir/transform/program_editor.h"
+
+namespace ncport::ir::transform {
+
+namespace {
+
+/// A modal group: its word and its value in a state (0 = unknown).
+struct Group {
+  WordOp op;
+  std::string_view name;
+  std::uint8_t (*value)(const ModalState&);
+};
+constexpr Group kGroups[] = {
+    {WordOp::kMotion, "the motion mode", [](const ModalState& s) { return static_cast<std::uint8_t>(s.motion); }},
+    {WordOp::kPlane, "the plane", [](const ModalState& s) { return static_cast<std::uint8_t>(s.plane); }},
+    {WordOp::kDistance, "the distance mode", [](const ModalState& s) { return static_cast<std::uint8_t>(s.distance); }},
+    {WordOp::kUnits, "the unit", [](const ModalState& s) { return static_cast<std::uint8_t>(s.units); }},
+    {WordOp::kFeedMode, "the feed mode", [](const ModalState& s) { return static_cast<std::uint8_t>(s.feed_mode); }},
+    {WordOp::kCutterComp, "cutter compensation", [](const ModalState& s) { return static_cast<std::uint8_t>(s.comp); }},
+    {WordOp::kDiameter, "the diameter mode", [](const ModalState& s) { return static_cast<std::uint8_t>(s.diameter); }},
+    {WordOp::kPathMode, "the path mode", [](const ModalState& s) { return static_cast<std::uint8_t>(s.path); }},
+};
+
+class Pass {
+ public:
+  Pass(Module& module, const Machine& source, const ModalState& sub_entry, diag::Sink& sink)
+      : module_(module),
+        sink_(sink),
+        graphs_(module),
+        calls_(module),
+        flow_(module, source, graphs_, calls_, {source.start, sub_entry}) {}
+
+  bool Run() {
+    FindChanges();
+    bool any = false;
+    for (const Program& program : module_.programs.All()) any = any || program.saves_modal_state;
+    if (!any) return true;
+    for (const ProgramId program : module_.programs.Ids()) Restore(program);
+    for (Program& program : module_.programs.All()) program.saves_modal_state = false;
+    return ok_;
+  }
+
+ private:
+  /// Bit per row of kGroups: groups that a program, or one below it that does not put them back, has words for.
+  void FindChanges() {
+    changes_.assign(module_.programs.Size(), 0);
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (const ProgramId program : module_.programs.Ids()) {
+        std::uint32_t now = changes_[program.value];
+        for (const BlockId block : module_.programs[program].blocks) {
+          for (const WordId id : module_.blocks[block].words) {
+            const Word& word = module_.words[id];
+            for (std::size_t group = 0; group < std::size(kGroups); ++group) {
+              if (word.op == kGroups[group].op) now |= 1U << group;
+            }
+            // Constant surface speed changes the feed mode on some controls.
+            if (word.op == WordOp::kSpeedMode) now |= 1U << 4U;
+            if (word.op == WordOp::kComputedG || word.op == WordOp::kVerbatim) now = ~0U;
+            if (word.op != WordOp::kCall && word.op != WordOp::kModalCall) continue;
+            const auto call = word.Extra<CallId>();
+            if (!call.Valid() || !module_.calls[call].program.Valid()) continue;
+            const ProgramId callee = module_.calls[call].program;
+            if (!module_.programs[callee].saves_modal_state) now |= changes_[callee.value];
+          }
+        }
+        changed = changed || now != changes_[program.value];
+        changes_[program.value] = now;
+      }
+    }
+  }
+
+  void Restore(ProgramId program) {
+    ProgramEditor editor(module_, program, "save_to_restores");
+    for (const BlockId id : module_.programs[program].blocks) {
+      const Block block = module_.blocks[id];
+      for (const WordId word_id : block.words) {
+        const Word word = module_.words[word_id];
+        if (word.op != WordOp::kCall || !word.Extra<CallId>().Valid()) continue;
+        const ProgramId callee = module_.calls[word.Extra<CallId>()].program;
+        if (!callee.Valid() || !module_.programs[callee].saves_modal_state) continue;
+        const ModalState before = flow_.At(program, id);
+        std::vector<Word> words;
+        for (std::size_t group = 0; group < std::size(kGroups); ++group) {
+          if ((changes_[callee.value] >> group & 1U) == 0) continue;
+          const std::uint8_t value = kGroups[group].value(before);
+          if (value == 0) {
+            // A group that was never set has nothing to go back to only if nothing relies on it: that is not known
+            // here.
+            if (kGroups[group].op == WordOp::kPathMode) continue;
+            ok_ = false;
+            sink_.Report(diag::Code::kUnknownModalState, module_.RangeOf(block, word), kGroups[group].name,
+                         "the called program puts it back (SAVE), and what it was is not one value here");
+            continue;
+          }
+          Word made;
+          made.op = kGroups[group].op;
+          made.index = value;
+          made.phase = DefaultPhaseOf(made.op);
+          made.flags = Word::kAdded;
+          words.push_back(made);
+        }
+        if (words.empty()) continue;
+        Block made = editor.MakeBlock(id);
+        made.skip_level = block.skip_level;
+        editor.SetWords(made, words);
+        editor.InsertAfter(id, made);
+      }
+    }
+    editor.Apply();
+  }
+
+  Module& module_;
+  diag::Sink& sink_;
+  analysis::FlowGraphs graphs_;
+  analysis::CallGraph calls_;
+  analysis::ModalFlow flow_;
+  std::vector<std::uint32_t> changes_;
+  bool ok_ = true;
+};
+
+}  // namespace
+
+bool SaveToRestores(Module& module, const Machine& source, const ModalState& sub_entry, diag::Sink& sink) {
+  return Pass(module, source, sub_entry, sink).Run();
+}
+
+}  // namespace ncport::ir::transform

@@ -24,10 +24,11 @@ struct Transliteration {
   std::string_view from, to;
 };
 constexpr Transliteration kTransliterations[] = {
-    {"\xC3\x84", "AE"}, {"\xC3\xA4", "AE"}, {"\xC3\x96", "OE"}, {"\xC3\xB6", "OE"}, {"\xC3\x9C", "UE"}, {"\xC3\xBC", "UE"},
-    {"\xC3\x9F", "SS"}, {"\xC3\xA9", "E"},  {"\xC3\xA8", "E"},  {"\xC3\xAA", "E"},  {"\xC3\xA1", "A"},  {"\xC3\xA0", "A"},
-    {"\xC3\xA7", "C"},  {"\xC3\xB1", "N"},  {"\xC3\xB3", "O"},  {"\xC3\xAD", "I"},  {"\xC3\xBA", "U"},  {"\xC2\xB0", "DEG"},
-    {"\xC3\x98", "DIA"}, {"\xC3\xB8", "DIA"}, {"\xC2\xB5", "U"},
+    {"\xC3\x84", "AE"}, {"\xC3\xA4", "AE"}, {"\xC3\x96", "OE"},  {"\xC3\xB6", "OE"},  {"\xC3\x9C", "UE"},
+    {"\xC3\xBC", "UE"}, {"\xC3\x9F", "SS"}, {"\xC3\xA9", "E"},   {"\xC3\xA8", "E"},   {"\xC3\xAA", "E"},
+    {"\xC3\xA1", "A"},  {"\xC3\xA0", "A"},  {"\xC3\xA7", "C"},   {"\xC3\xB1", "N"},   {"\xC3\xB3", "O"},
+    {"\xC3\xAD", "I"},  {"\xC3\xBA", "U"},  {"\xC2\xB0", "DEG"}, {"\xC3\x98", "DIA"}, {"\xC3\xB8", "DIA"},
+    {"\xC2\xB5", "U"},
 };
 
 class Printer {
@@ -66,7 +67,7 @@ class Printer {
   TextBuffer& out_;
   ExprPrinter exprs_;
   dialects::fanuc::System system_ = dialects::fanuc::System::kMill;
-  bool started_ = false;   // something stands in the line
+  bool started_ = false;  // something stands in the line
 };
 
 void Printer::PrintComment(const ir::Comment& comment) {
@@ -79,9 +80,9 @@ void Printer::PrintComment(const ir::Comment& comment) {
 }
 
 void Printer::PrintCode(const Word& word) {
-  const std::uint32_t extra = word.op == WordOp::kSpindle || word.op == WordOp::kProgramEnd || word.op == WordOp::kWorkOffset
-                                  ? word.extra
-                                  : Id<void>::kNone;
+  const std::uint32_t extra =
+      word.op == WordOp::kSpindle || word.op == WordOp::kProgramEnd || word.op == WordOp::kWorkOffset ? word.extra
+                                                                                                      : Id<void>::kNone;
   const dialects::CodeRow* row = dialects::fanuc::Codes(system_).FindMeaning(word.op, word.index, extra);
   NCPORT_CHECK(row != nullptr, "no code for {} {}", ir::NameOf(word.op), word.index);
   Blank();
@@ -96,10 +97,11 @@ void Printer::Template(std::string_view form, ir::ExprId number, ir::ExprId offs
     if (value.Valid()) ExprPrinter(module_, profile_, text).WordValue(value, place);
     return std::string(text.View());
   };
-  const std::string whole = text_of(number, form.find("{seconds}") != std::string_view::npos ? NumberPlace::kWord : NumberPlace::kInteger);
+  const std::string whole =
+      text_of(number, form.find("{seconds}") != std::string_view::npos ? NumberPlace::kWord : NumberPlace::kInteger);
   const std::string second = text_of(offset, NumberPlace::kInteger);
-  const dialects::TemplateValue values[] = {{"number", whole}, {"tool", whole},   {"speed", whole},
-                                            {"seconds", whole}, {"offset", second}};
+  const dialects::TemplateValue values[] = {
+      {"number", whole}, {"tool", whole}, {"speed", whole}, {"seconds", whole}, {"offset", second}};
   dialects::AppendTemplate(out_, form, values);
 }
 
@@ -198,7 +200,8 @@ void Printer::PrintJump(const Word& word) {
 
 void Printer::PrintCall(const Word& word) {
   const ir::Call& call = module_.calls[word.Extra<ir::CallId>()];
-  const std::string_view name = call.program.Valid() ? module_.View(module_.programs[call.program].name) : module_.View(call.name);
+  const std::string_view name =
+      call.program.Valid() ? module_.View(module_.programs[call.program].name) : module_.View(call.name);
   const bool number = !name.empty() && name.find_first_not_of("0123456789") == std::string_view::npos;
   Blank();
   if (word.op == WordOp::kModalCall) {
@@ -208,7 +211,8 @@ void Printer::PrintCall(const Word& word) {
   }
   if (number) {
     out_.Append('P');
-    const bool packed = !call.new_level && call.passes.Valid() && profile_.fanuc.calls.Is(dialects::FanucSettings::Calls::kPacked) &&
+    const bool packed = !call.new_level && call.passes.Valid() &&
+                        profile_.fanuc.calls.Is(dialects::FanucSettings::Calls::kPacked) &&
                         module_.exprs[call.passes].op == ir::ExprOp::kLiteral;
     if (packed) {
       // P with more than four digits: repeats in front of the four digits of the program (fanuc-7.2).
@@ -291,7 +295,9 @@ void Printer::PrintWord(const Word& word, const Block& block) {
     case WordOp::kSpindle: {
       const auto state = static_cast<ir::SpindleState>(word.extra);
       Blank();
-      out_.Append(state == ir::SpindleState::kCw ? *profile_.spindle.cw : state == ir::SpindleState::kCcw ? *profile_.spindle.ccw : *profile_.spindle.stop);
+      out_.Append(state == ir::SpindleState::kCw    ? *profile_.spindle.cw
+                  : state == ir::SpindleState::kCcw ? *profile_.spindle.ccw
+                                                    : *profile_.spindle.stop);
       return;
     }
     case WordOp::kDwellSeconds:

@@ -49,7 +49,8 @@ int LevelOf(ExprOp op) {
 }
 
 bool IsLogic(ExprOp op) {
-  return op == ExprOp::kBitAnd || op == ExprOp::kBitOr || op == ExprOp::kBitXor || op == ExprOp::kAnd || op == ExprOp::kOr || op == ExprOp::kXor;
+  return op == ExprOp::kBitAnd || op == ExprOp::kBitOr || op == ExprOp::kBitXor || op == ExprOp::kAnd ||
+         op == ExprOp::kOr || op == ExprOp::kXor;
 }
 
 /// Below what prints nothing.
@@ -64,8 +65,8 @@ ExprId Bare(const ir::Module& module, ExprId id) {
 }
 
 bool TwoArguments(const Expr& expr) {
-  return expr.op == ExprOp::kFunction &&
-         (static_cast<Function>(expr.a) == Function::kAtan2 || static_cast<Function>(expr.a) == Function::kAtan2Positive);
+  return expr.op == ExprOp::kFunction && (static_cast<Function>(expr.a) == Function::kAtan2 ||
+                                          static_cast<Function>(expr.a) == Function::kAtan2Positive);
 }
 
 /// Is the operand of an operation put in brackets? `right`: it stands behind the operator.
@@ -88,7 +89,8 @@ void ExprPrinter::PrintLiteral(const Expr& expr, NumberPlace place, bool inside)
     NCPORT_CHECK(whole, "a fraction {} at an address that takes whole numbers", value);
     return AppendInteger(out_, static_cast<std::int64_t>(value));
   }
-  const bool written = (expr.format.flags & (ir::NumberFormat::kComputed | ir::NumberFormat::kAsText)) == 0 && (expr.format.int_digits != 0 || expr.format.decimals != 0);
+  const bool written = (expr.format.flags & (ir::NumberFormat::kComputed | ir::NumberFormat::kAsText)) == 0 &&
+                       (expr.format.int_digits != 0 || expr.format.decimals != 0);
   const bool point = place == NumberPlace::kWord || expr.format.decimals > 0;
   if (written) {
     return AppendNumber(out_, value, std::max<std::uint8_t>(expr.format.int_digits, 1), expr.format.decimals,
@@ -149,7 +151,8 @@ void ExprPrinter::Print(ExprId id, int level, NumberPlace place) {
     default:
       break;
   }
-  NCPORT_CHECK(ir::OperandsOf(expr.op) == ir::Operands::kBinary, "operation {} reached the printer", ir::NameOf(expr.op));
+  NCPORT_CHECK(ir::OperandsOf(expr.op) == ir::Operands::kBinary, "operation {} reached the printer",
+               ir::NameOf(expr.op));
   const dialects::fanuc::OperatorRow* row = dialects::fanuc::FindOperator(expr.op);
   NCPORT_CHECK(row != nullptr, "operation {} reached the printer", ir::NameOf(expr.op));
   const bool word = row->text.front() >= 'A' && row->text.front() <= 'Z';
@@ -191,7 +194,8 @@ int Depth(const ir::Module& module, ExprId id) {
       return 0;
     case ir::Operands::kUnary:
       if (expr.op == ExprOp::kCellAt) return 1 + Depth(module, ExprId{expr.a});
-      return (expr.op == ExprOp::kNegate && NeedsBrackets(module, ExprId{expr.a}, expr.op, true) ? 1 : 0) + Depth(module, ExprId{expr.a});
+      return (expr.op == ExprOp::kNegate && NeedsBrackets(module, ExprId{expr.a}, expr.op, true) ? 1 : 0) +
+             Depth(module, ExprId{expr.a});
     case ir::Operands::kBinary: {
       const int left = Depth(module, ExprId{expr.a}) + (NeedsBrackets(module, ExprId{expr.a}, expr.op, false) ? 1 : 0);
       const int right = Depth(module, ExprId{expr.b}) + (NeedsBrackets(module, ExprId{expr.b}, expr.op, true) ? 1 : 0);
@@ -199,7 +203,8 @@ int Depth(const ir::Module& module, ExprId id) {
     }
     case ir::Operands::kList: {
       int deepest = 0;
-      for (std::uint32_t i = 0; i < expr.count; ++i) deepest = std::max(deepest, Depth(module, module.Item(expr.b + i)));
+      for (std::uint32_t i = 0; i < expr.count; ++i)
+        deepest = std::max(deepest, Depth(module, module.Item(expr.b + i)));
       return deepest + 1;
     }
   }

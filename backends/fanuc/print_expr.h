@@ -1,5 +1,6 @@
-// Expressions of Fanuc Custom Macro B as text. Brackets are written where the order of operations needs them (fanuc-4.1) and
-// round AND, OR, XOR always; brackets of the source that say nothing are left out, since five levels are all there is.
+// Expressions of Fanuc Custom Macro B as text. Brackets are written where the order of operations needs them
+// (fanuc-4.1) and round AND, OR, XOR always; brackets of the source that say nothing are left out, since five levels
+// are all there is.
 #pragma once
 
 #include "base/text_buffer.h"
@@ -10,9 +11,9 @@ namespace ncport::backends::fanuc {
 
 /// Where a number without point means a plain real, and where it would count increments (fanuc-2.2).
 enum class NumberPlace : std::uint8_t {
-  kMacro,      // statements and conditions: 5 is five
-  kWord,       // value of a length, angle or feed word: always with a point
-  kInteger,    // M S T H D P L N: never with a point
+  kMacro,    // statements and conditions: 5 is five
+  kWord,     // value of a length, angle or feed word: always with a point
+  kInteger,  // M S T H D P L N: never with a point
 };
 
 class ExprPrinter {

@@ -1,0 +1,58 @@
+// What a translation mapped, added and lost: for the header of the output, the report and the comparison.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/source_range.h"
+#include "ir/module.h"
+#include "ir/transform/names_to_numbers.h"
+
+namespace ncport::backends {
+
+/// A tool call of the source and the words that stand for it.
+struct ToolUse {
+  std::string source_words;  // "T1 D1", `T="ROUGH" D1`
+  std::string target_words;  // "T0101"
+  std::string source_name;   // named tools
+  std::uint32_t source_tool = 0, source_edge = 0;
+  std::uint32_t target_tool = 0, target_offset = 0;
+};
+struct OffsetUse {
+  std::uint32_t source = 0, source_extension = 0, target = 0, target_extension = 0;
+};
+struct AuxUse {
+  std::uint32_t source = 0;
+  std::optional<std::uint32_t> target;  // none: dropped
+};
+struct ProgramName {
+  ir::ProgramId program;  // of the translated module
+  std::string source;     // "TURNING_CYCLE"
+  std::string target;     // "4001"
+  bool main = false;
+};
+/// A listed loss (contracts section 3).
+struct Loss {
+  SourceRange at;
+  std::string what;
+};
+
+/// The translated module and everything that is to be told of it.
+struct Translation {
+  ir::Module module;
+  std::vector<ProgramName> programs;  // in the order of output
+  std::vector<ir::transform::CellMapping> cells;
+  std::vector<ToolUse> tools;
+  std::vector<OffsetUse> offsets;
+  std::vector<AuxUse> aux;
+  std::vector<Loss> losses;
+  std::vector<std::string> added;        // blocks without a source block, with the reason
+  std::vector<std::string> required;     // what the machine must have: options, parameters, settings
+  std::vector<std::string> assumptions;  // unverified rules and settings that the output rests on, with the card row
+  bool messages_lost = false;
+  bool path_lost = false;
+};
+
+}  // namespace ncport::backends

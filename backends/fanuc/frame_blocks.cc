@@ -1,0 +1,217 @@
+#include "backends/fanuc/frame_blocks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "dialects/fanuc/words.h"
+#include "ir/builder.h"
+#include "ir/transform/program_editor.h"
+
+namespace ncport::backends::fanuc {
+
+namespace {
+
+using ir::Block;
+using ir::BlockId;
+using ir::Module;
+using ir::Word;
+using ir::WordOp;
+using ir::transform::ProgramEditor;
+
+Word TextWord(Module& module, std::string_view text) {
+  Word word;
+  word.op = WordOp::kInert;
+  word.phase = ir::DefaultPhaseOf(WordOp::kInert);
+  word.spelling = ir::AddSpelling(module, text, "");
+  word.flags = Word::kAdded;
+  return word;
+}
+
+Block AddedBlock(Module& module, ProgramEditor& editor, BlockId near, std::string_view text) {
+  Block block = editor.MakeBlock(near);
+  block.indent = 0;
+  block.flags = Block::kAdded;
+  editor.SetWords(block, {TextWord(module, text)});
+  return block;
+}
+
+bool HoldsWords(const Module& module, BlockId id) { return !module.blocks[id].words.Empty(); }
+
+bool IsTool(const Module& module, const Translation& out, BlockId id) {
+  for (const ir::WordId word_id : module.blocks[id].words) {
+    const Word& word = module.words[word_id];
+    if (word.op != WordOp::kInert || word.spelling == 0 || (word.flags & Word::kAdded) != 0) continue;
+    const std::string_view text = module.View(module.spellings[word.spelling].text);
+    if (std::any_of(out.tools.begin(), out.tools.end(), [&](const ToolUse& use) { return use.target_words == text; }))
+      return true;
+  }
+  return false;
+}
+
+/// The safety line for profiles that give no header of their own: one word of each group.
+std::vector<std::string> SafetyLines(const RaiseInput& input) {
+  const dialects::Profile& profile = *input.profile;
+  const auto system = dialects::fanuc::SystemOf(profile);
+  const auto code = [&](WordOp op, std::uint8_t index) -> std::string {
+    const dialects::CodeRow* row = dialects::fanuc::Codes(*system).FindMeaning(op, index);
+    return row == nullptr ? std::string() : std::string(row->text);
+  };
+  const ir::ModalState& start = input.source_machine->start;
+  std::string line;
+  const auto add = [&](const std::string& word) {
+    if (word.empty()) return;
+    if (!line.empty()) line += ' ';
+    line += word;
+  };
+  add(code(WordOp::kUnits, static_cast<std::uint8_t>(ir::Units::kMm)));
+  std::vector<std::string> lines{line};
+  line.clear();
+  const ir::Plane plane =
+      start.plane == ir::Plane::kUnknown ? (profile.IsLathe() ? ir::Plane::kZX : ir::Plane::kXY) : start.plane;
+  add(code(WordOp::kPlane, static_cast<std::uint8_t>(plane)));
+  add(code(WordOp::kCutterComp, static_cast<std::uint8_t>(ir::CutterComp::kOff)));
+  if (!profile.IsLathe()) add(profile.words.length_offset_off.Or(""));
+  add("G80");
+  add(profile.words.absolute.Or(""));
+  const ir::FeedMode feed = start.feed_mode == ir::FeedMode::kUnknown
+                                ? (profile.IsLathe() ? ir::FeedMode::kPerRevolution : ir::FeedMode::kPerMinute)
+                                : start.feed_mode;
+  add(feed == ir::FeedMode::kPerMinute ? profile.words.feed_per_minute.Or("")
+                                       : profile.words.feed_per_revolution.Or(""));
+  if (profile.IsLathe()) add(code(WordOp::kSpeedMode, static_cast<std::uint8_t>(ir::SpeedMode::kRpm)));
+  lines.push_back(line);
+  return lines;
+}
+
+}  // namespace
+
+bool FrameMainPrograms(const RaiseInput& input, Translation& out, diag::Sink& sink) {
+  Module& module = out.module;
+  const dialects::Profile& profile = *input.profile;
+  std::vector<std::string> head = *profile.words.header;
+  if (head.empty()) {
+    head = SafetyLines(input);
+  }
+  if (profile.fanuc.variant.Is(dialects::FanucSettings::Variant::kMazak) && profile.IsLathe()) {
+    const SourceRange nowhere{};
+    if (!dialects::Need(profile, profile.fanuc.c_axis, nowhere, sink)) return false;
+    if (*profile.fanuc.c_axis) head.emplace_back("M202");
+    const std::string leave = profile.fanuc.leave_mazatrol.Or("");
+    if (!leave.empty()) head.push_back(leave);
+  }
+  for (const ir::ProgramId program : module.programs.Ids()) {
+    if (module.programs[program].kind != ir::ProgramKind::kMain) continue;
+    ProgramEditor editor(module, program, "frame");
+    const IdRange<BlockId> blocks = module.programs[program].blocks;
+    BlockId first, end;
+    for (const BlockId id : blocks) {
+      if (!first.Valid() && HoldsWords(module, id)) first = id;
+      for (const ir::WordId word : module.blocks[id].words) {
+        if (module.words[word].op == WordOp::kProgramEnd) end = id;
+      }
+    }
+    if (!first.Valid()) continue;
+    for (const std::string& line : head) editor.InsertBefore(first, AddedBlock(module, editor, first, line));
+    if (end.Valid()) {
+      for (const std::string& line : *profile.words.footer)
+        editor.InsertBefore(end, AddedBlock(module, editor, end, line));
+    }
+    editor.Apply();
+  }
+  if (!head.empty())
+    out.added.push_back(
+        fmt::format("head of the main program: {} blocks, so that no modal state is taken over", head.size()));
+  if (!profile.words.footer->empty()) out.added.push_back("end of the main program: away from the work, spindle off");
+  return true;
+}
+
+void FrameToolChanges(const RaiseInput& input, Translation& out) {
+  if (!input.profile->IsLathe()) return;
+  Module& module = out.module;
+  const std::vector<std::string> home = input.profile->words.safe_position.Known() ? *input.profile->words.safe_position
+                                                                                   : input.profile->words.home.Or({});
+  bool any = false;
+  for (const ir::ProgramId program : module.programs.Ids()) {
+    ProgramEditor editor(module, program, "frame");
+    bool first = module.programs[program].kind == ir::ProgramKind::kMain;
+    for (const BlockId id : module.programs[program].blocks) {
+      if (!IsTool(module, out, id)) continue;
+      if (!std::exchange(first, false)) {
+        for (const std::string& line : home) editor.InsertBefore(id, AddedBlock(module, editor, id, line));
+        any = true;
+      }
+    }
+    editor.Apply();
+  }
+  if (any) out.added.push_back("tool change: away from the work in front of it, work offset again behind it");
+}
+
+void GuardMacros(const RaiseInput& input, Translation& out) {
+  Module& module = out.module;
+  ir::ExprBuilder make(module);
+  const std::uint32_t alarm = input.profile->fanuc.alarms.Known() ? input.profile->fanuc.alarms->first : 21;
+  bool any = false;
+  for (const ir::ProgramId program : module.programs.Ids()) {
+    std::vector<std::uint32_t> cells;
+    ir::SpaceId space;
+    for (const ir::transform::CellMapping& mapping : out.cells) {
+      if (mapping.program == program && mapping.letter != 0) cells.push_back(mapping.first);
+    }
+    for (std::uint32_t i = 0; i < module.spaces.Size(); ++i) {
+      if (module.View(module.spaces[ir::SpaceId{i}].name) == "#") space = ir::SpaceId{i};
+    }
+    const IdRange<BlockId> blocks = module.programs[program].blocks;
+    if (cells.empty() || blocks.Empty()) continue;
+    std::set<std::uint32_t> numbers;
+    for (const BlockId id : blocks) numbers.insert(module.blocks[id].number);
+    std::uint32_t number = 9001;
+    while (numbers.contains(number)) ++number;
+    BlockId first = blocks[0];
+    for (const BlockId id : blocks) {
+      first = id;
+      if (HoldsWords(module, id)) break;
+    }
+    ProgramEditor editor(module, program, "guard");
+    for (const std::uint32_t cell : cells) {
+      ir::Jump jump;
+      jump.target.kind = ir::TargetKind::kNumber;
+      jump.target.number = number;
+      jump.search = ir::Search::kForwardThenFromStart;
+      Word word;
+      word.op = WordOp::kJump;
+      word.phase = ir::DefaultPhaseOf(WordOp::kJump);
+      word.flags = Word::kAdded;
+      word.extra = module.jumps.Add(jump).value;
+      word.value = make.Binary(ir::ExprOp::kEqual, make.Cell(space, cell), make.Vacant());
+      Block block = editor.MakeBlock(first);
+      block.flags = Block::kAdded;
+      block.indent = 0;
+      editor.SetWords(block, {word});
+      editor.InsertBefore(first, block);
+    }
+    const BlockId last = blocks[blocks.count - 1];
+    Word raise;
+    raise.op = WordOp::kAlarm;
+    raise.phase = ir::DefaultPhaseOf(WordOp::kAlarm);
+    raise.flags = Word::kAdded;
+    raise.value = make.Literal(alarm, ir::Type::kInt);
+    raise.extra = make.Text("ARGUMENT MISSING").value;
+    Block block = editor.MakeBlock(last);
+    block.flags = Block::kAdded;
+    block.indent = 0;
+    block.number = number;
+    editor.SetWords(block, {raise});
+    editor.InsertAfter(last, block);
+    editor.Apply();
+    any = true;
+  }
+  if (any)
+    out.added.push_back(fmt::format(
+        "guards of the macros: a letter that is missing is an alarm (#3000={}), never an empty word", alarm));
+}
+
+}  // namespace ncport::backends::fanuc

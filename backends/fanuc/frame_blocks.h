@@ -1,0 +1,16 @@
+// Blocks that a translation adds around the source's own: the safety line of a main program, its end, the way out to a
+// tool change, the guards of a macro. All carry Block::kAdded: they are listed and left out of the comparison.
+#pragma once
+
+#include "backends/fanuc/raise.h"
+
+namespace ncport::backends::fanuc {
+
+/// Head and end of main programs: every modal group that a program can rely on is written (design 4.3).
+bool FrameMainPrograms(const RaiseInput& input, Translation& out, diag::Sink& sink);
+/// Machines whose tools change at a position: the way there in front of each tool call but the first.
+void FrameToolChanges(const RaiseInput& input, Translation& out);
+/// Alarm when a letter that the macro needs is missing: the source takes 0 there, the target nothing (hazards#6).
+void GuardMacros(const RaiseInput& input, Translation& out);
+
+}  // namespace ncport::backends::fanuc

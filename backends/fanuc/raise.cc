@@ -1,0 +1,287 @@
+#include "backends/fanuc/raise.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "backends/fanuc/frame_blocks.h"
+#include "backends/fanuc/limit_nesting.h"
+#include "backends/fanuc/raise_words.h"
+#include "dialects/fanuc/words.h"
+#include "ir/transform/absolute_dimensions.h"
+#include "ir/transform/lower_expressions.h"
+#include "ir/transform/names_to_numbers.h"
+#include "ir/transform/save_to_restores.h"
+#include "ir/transform/split_at_tool_change.h"
+#include "ir/transform/split_statements.h"
+#include "ir/transform/structure_to_jumps.h"
+
+namespace ncport::backends::fanuc {
+
+namespace {
+
+using ir::Module;
+using ir::Word;
+using ir::WordOp;
+using namespace ir::transform;
+
+bool IsMazakLathe(const dialects::Profile& profile) {
+  return profile.fanuc.variant.Is(dialects::FanucSettings::Variant::kMazak) && profile.IsLathe();
+}
+
+NamesToNumbersConfig CellConfig(const RaiseInput& input) {
+  NamesToNumbersConfig config;
+  // Letters that travel plainly on all controls of the family: no I J K (list II), no G L N O P, no M S T
+  // (mazak-lathe-10.1).
+  for (const char letter : std::string_view("ABCDEHQRUVWXYZ"))
+    config.letters.push_back({letter, dialects::fanuc::ArgumentCell(letter)});
+  config.feed_letter = {'F', dialects::fanuc::ArgumentCell('F')};
+  for (const dialects::NumberRange& range : dialects::fanuc::FreeLocals()) {
+    for (std::uint32_t cell = range.first; cell <= range.last; ++cell) config.free_locals_first.push_back(cell);
+  }
+  for (const dialects::ScratchRange& range : input.profile->scratch)
+    config.scratch.push_back({range.range.first, range.range.last});
+  if (input.config != nullptr) {
+    for (const dialects::WordMapping& pin : input.config->variables) {
+      std::uint32_t cell = 0;
+      const char* first = pin.target.data() + (pin.target.starts_with('#') ? 1 : 0);
+      if (std::from_chars(first, pin.target.data() + pin.target.size(), cell).ec == std::errc{})
+        config.pins.push_back({pin.source, cell});
+    }
+  }
+  return config;
+}
+
+/// Numbers of the programs: those of [programs], the source's own where it is a number, else free ones.
+bool NamePrograms(const RaiseInput& input, const SplitResult& split, Translation& out, diag::Sink& sink) {
+  Module& module = out.module;
+  const dialects::Profile& profile = *input.profile;
+  std::set<std::string> taken;
+  std::vector<std::string> names(module.programs.Size());
+  const auto source_name = [&](ir::ProgramId program) {
+    return std::string(module.View(module.programs[program].name));
+  };
+  bool ok = true;
+  for (const ir::ProgramId program : module.programs.Ids()) {
+    if (!names[program.value].empty()) continue;
+    std::vector<ir::ProgramId> parts{program};
+    for (const SplitProgram& whole : split.programs) {
+      if (whole.whole == program) parts = whole.parts;
+    }
+    const dialects::ProgramMapping* mapping =
+        input.config == nullptr ? nullptr : input.config->FindProgram(source_name(program));
+    if (mapping == nullptr) continue;
+    if (mapping->targets.size() < parts.size()) {
+      sink.Report(diag::Code::kNotExpressible, mapping->at,
+                  fmt::format("{} under one number: it is split at its tool changes", source_name(program)),
+                  profile.name)
+          .help = fmt::format("give {} numbers: {} = [4001, 4002]", parts.size(), source_name(program));
+      ok = false;
+      continue;
+    }
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      names[parts[i].value] = mapping->targets[i];
+      if (!taken.insert(mapping->targets[i]).second) {
+        sink.Report(diag::Code::kDoubleName, mapping->at, mapping->targets[i]);
+        ok = false;
+      }
+    }
+  }
+  std::uint32_t next_main = 1001;
+  std::uint32_t next_sub = profile.names.macro_numbers.Known() ? profile.names.macro_numbers->first + 1 : 4001;
+  for (const ir::ProgramId program : module.programs.Ids()) {
+    std::string& name = names[program.value];
+    if (!name.empty()) continue;
+    const std::string source = source_name(program);
+    const std::size_t digits = source.size() > 1 && (source[0] == 'L' || source[0] == 'O') ? 1 : 0;
+    const bool numbered =
+        source.find_first_not_of("0123456789", digits) == std::string::npos && source.size() - digits <= 4;
+    if (numbered && !taken.contains(source.substr(digits)) && std::stoul(source.substr(digits)) != 0) {
+      name = std::to_string(std::stoul(source.substr(digits)));
+    }
+    std::uint32_t& next = module.programs[program].kind == ir::ProgramKind::kMain ? next_main : next_sub;
+    while (name.empty()) {
+      const std::string wish = std::to_string(next++);
+      if (!taken.contains(wish)) name = wish;
+    }
+    taken.insert(name);
+  }
+  for (const bool main : {true, false}) {
+    for (const ir::ProgramId program : module.programs.Ids()) {
+      if ((module.programs[program].kind == ir::ProgramKind::kMain) != main) continue;
+      out.programs.push_back({program, source_name(program), names[program.value], main});
+    }
+  }
+  for (const ProgramName& name : out.programs) module.programs[name.program].name = module.strings.Intern(name.target);
+  return ok;
+}
+
+/// What is left must have a form in the target.
+bool CheckLegal(const RaiseInput& input, Translation& out, diag::Sink& sink) {
+  const Module& module = out.module;
+  const dialects::Profile& profile = *input.profile;
+  const auto system = *dialects::fanuc::SystemOf(profile);
+  bool ok = true;
+  for (const ir::ProgramId program : module.programs.Ids()) {
+    for (const ir::BlockId id : module.programs[program].blocks) {
+      const ir::Block& block = module.blocks[id];
+      const auto refuse = [&](const Word& word, std::string_view what) {
+        ok = false;
+        sink.Report(diag::Code::kNotExpressible, module.RangeOf(block, word), what, profile.name);
+      };
+      if ((block.flags & ir::Block::kRefused) != 0) {
+        ok = false;
+        continue;  // has its finding already
+      }
+      for (const ir::WordId word_id : block.words) {
+        const Word& word = module.words[word_id];
+        const auto named = [&] {
+          return word.spelling != 0 ? std::string(module.View(module.spellings[word.spelling].text))
+                                    : std::string(ir::NameOf(word.op));
+        };
+        switch (word.op) {
+          case WordOp::kAssign:
+          case WordOp::kWhile:
+          case WordOp::kEndWhile:
+          case WordOp::kJump:
+          case WordOp::kWhen:
+          case WordOp::kAlarm:
+          case WordOp::kProgramEnd:
+          case WordOp::kCenter:
+          case WordOp::kRadius:
+          case WordOp::kFeed:
+          case WordOp::kStartAngle:
+          case WordOp::kSpeed:
+          case WordOp::kSpeedLimit:
+          case WordOp::kAux:
+            break;
+          case WordOp::kReturn:
+            if (word.value.Valid()) refuse(word, "a return to a label of the caller");
+            break;
+          case WordOp::kInert:
+            // Made by a pass of this target, or a word of the source that has no effect here: that one is not carried
+            // over.
+            if (word.spelling != 0 && module.View(module.spellings[word.spelling].rule).empty()) break;
+            refuse(word, named());
+            break;
+          case WordOp::kAxis:
+            if (word.index >= ir::kLetterAxes) refuse(word, "an axis with a name of its own");
+            break;
+          case WordOp::kCall:
+          case WordOp::kModalCall: {
+            const auto call = word.Extra<ir::CallId>();
+            if (!call.Valid()) break;
+            if (!module.calls[call].program.Valid()) {
+              ok = false;
+              sink.Report(diag::Code::kUnknownProgram, module.RangeOf(block, word),
+                          module.View(module.calls[call].name));
+            }
+            break;
+          }
+          case WordOp::kSpindle:
+            if (word.extra == static_cast<std::uint32_t>(ir::SpindleState::kPositioned)) refuse(word, named());
+            break;
+          case WordOp::kDwellSeconds:
+            if (profile.fanuc.dwell.Known() || !profile.IsLathe()) break;
+            ok = dialects::Need(profile, profile.fanuc.dwell, module.RangeOf(block, word), sink) && ok;
+            break;
+          default: {
+            const std::uint32_t extra = word.op == WordOp::kWorkOffset ? word.extra : Id<void>::kNone;
+            if (dialects::fanuc::Codes(system).FindMeaning(word.op, word.index, extra) == nullptr)
+              refuse(word, named());
+          }
+        }
+      }
+    }
+  }
+  return ok;
+}
+
+/// Modes that a target without words for them has always: the words go.
+void DropForeignModes(const RaiseInput& input, Translation& out) {
+  Module& module = out.module;
+  const auto system = *dialects::fanuc::SystemOf(*input.profile);
+  for (const ir::ProgramId program : module.programs.Ids()) {
+    for (const ir::BlockId id : module.programs[program].blocks) {
+      ir::Block& block = module.blocks[id];
+      std::vector<Word> kept;
+      for (const ir::WordId word_id : block.words) {
+        const Word word = module.words[word_id];
+        // Exact stop and path control are a listed loss where the target has no word (contracts section 3).
+        const bool path = word.op == WordOp::kPathMode || word.op == WordOp::kExactOnce;
+        const bool known = dialects::fanuc::Codes(system).FindMeaning(word.op, word.index) != nullptr;
+        if (path && !known) {
+          out.path_lost = true;
+          out.losses.push_back({module.RangeOf(block, word), "path mode"});
+        } else {
+          kept.push_back(word);
+        }
+      }
+      if (kept.size() == block.words.count) continue;
+      block.words = {static_cast<std::uint32_t>(module.words.Size()), static_cast<std::uint32_t>(kept.size())};
+      for (const Word& word : kept) module.words.Add(word);
+    }
+  }
+}
+
+}  // namespace
+
+bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
+  const dialects::Profile& profile = *input.profile;
+  if (!dialects::fanuc::SystemOf(profile).has_value()) {
+    return dialects::Need(profile, profile.series, {}, sink);
+  }
+  out.module = *input.source;
+  Module& module = out.module;
+  const ir::Machine& machine = *input.source_machine;
+  const ir::ModalState entry = input.config != nullptr ? input.config->entry : ir::ModalState{};
+
+  TextsToComments(input, out, sink);
+  bool ok = SaveToRestores(module, machine, entry, sink);
+  for (const ir::ProgramId program : module.programs.Ids()) SplitStatements(module, program);
+  // Programs are split before positions are followed: a position does not cross a tool change.
+  SplitResult split;
+  if (IsMazakLathe(profile)) {
+    split = SplitAtToolChange(module, sink);
+    ok = split.ok && ok;
+  }
+  if (!ok) return false;
+  // While the source's modes still stand in the blocks: words that name what the target must be told.
+  NameMotions(input, out);
+  ok = ArrangeSpindle(input, out, sink) && ok;
+  ok = MapTools(input, out, sink) && ok;
+  AbsoluteDimensionsConfig dimensions;
+  dimensions.diameter_axis = profile.diameter.Is(dialects::DiameterRule::kYes) ? 0 : 0xFF;
+  dimensions.sub_entry = entry;
+  ok = AbsoluteDimensions(module, machine, dimensions, sink) && ok;
+  ok = MapWorkOffsets(input, out, sink) && ok;
+  ok = MapAuxiliaries(input, out, sink) && ok;
+  DropForeignModes(input, out);
+  if (!ok) return false;
+
+  // Expressions before structure: a test that needs statements makes IF blocks; structure before names: it makes
+  // locals.
+  for (const ir::ProgramId program : module.programs.Ids()) {
+    ok = LowerExpressions(module, program, {}, sink) && ok;
+    StructureToJumpsConfig structure;
+    structure.loop_depth = static_cast<std::uint32_t>(std::min<std::int64_t>(profile.nesting.loop.Or(3), 3));
+    if (profile.names.block_numbers.Known()) structure.last_number = profile.names.block_numbers->last;
+    ok = StructureToJumps(module, program, structure, sink) && ok;
+    LimitNesting(module, program, static_cast<int>(profile.nesting.brackets.Or(5)));
+  }
+  if (!ok) return false;
+  NamesToNumbersResult names = NamesToNumbers(module, CellConfig(input), sink);
+  out.cells = std::move(names.map);
+  if (!names.ok) return false;
+  ok = NamePrograms(input, split, out, sink);
+  GuardMacros(input, out);
+  FrameToolChanges(input, out);
+  ok = FrameMainPrograms(input, out, sink) && ok;
+  return CheckLegal(input, out, sink) && ok;
+}
+
+}  // namespace ncport::backends::fanuc

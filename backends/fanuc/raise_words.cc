@@ -1,0 +1,554 @@
+#include "backends/fanuc/raise_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string>
+#include <string_view>
+
+#include "base/number_text.h"
+#include "ir/analysis/call_graph.h"
+#include "ir/analysis/cfg.h"
+#include "ir/analysis/modal_state.h"
+#include "ir/builder.h"
+#include "ir/transform/linear_form.h"
+#include "ir/transform/program_editor.h"
+
+namespace ncport::backends::fanuc {
+
+namespace {
+
+using ir::Block;
+using ir::BlockId;
+using ir::ExprId;
+using ir::ExprOp;
+using ir::Module;
+using ir::Word;
+using ir::WordId;
+using ir::WordOp;
+using ir::transform::ProgramEditor;
+
+Word TextWord(Module& module, std::string_view text) {
+  Word word;
+  word.op = WordOp::kInert;
+  word.phase = ir::DefaultPhaseOf(WordOp::kInert);
+  word.spelling = ir::AddSpelling(module, text, "");
+  return word;
+}
+
+std::string NumberText(double value) {
+  TextBuffer text;
+  AppendTrimmed(text, value, 6);
+  return std::string(text.View());
+}
+
+/// The message as far as it is text; computed parts by the name of their variable, else as dots.
+void AppendMessage(const Module& module, ExprId id, std::string& out) {
+  if (!id.Valid()) return;
+  const ir::Expr& expr = module.exprs[id];
+  switch (expr.op) {
+    case ExprOp::kText:
+      out += module.View(StringId{expr.a});
+      return;
+    case ExprOp::kConcat:
+      AppendMessage(module, ExprId{expr.a}, out);
+      AppendMessage(module, ExprId{expr.b}, out);
+      return;
+    case ExprOp::kGroup:
+    case ExprOp::kConvert:
+      return AppendMessage(module, ExprId{expr.a}, out);
+    case ExprOp::kVariable:
+      out += module.View(module.variables[ir::VariableId{expr.a}].name);
+      return;
+    case ExprOp::kLiteral:
+      out += NumberText(expr.number);
+      return;
+    case ExprOp::kAdd:
+    case ExprOp::kSubtract:
+      AppendMessage(module, ExprId{expr.a}, out);
+      out += expr.op == ExprOp::kAdd ? "+" : "-";
+      AppendMessage(module, ExprId{expr.b}, out);
+      return;
+    case ExprOp::kCell:
+      out += fmt::format("{}{}", module.View(module.spaces[ir::SpaceId{expr.a}].name), expr.b);
+      return;
+    default:
+      out += "..";
+  }
+}
+
+/// Takes words out of a block and gives it a comment instead.
+class CommentMaker {
+ public:
+  CommentMaker(Module& module, ir::ProgramId program)
+      : module_(module), editor_(module, program, "texts_to_comments") {}
+
+  void Replace(BlockId id, const std::vector<Word>& kept, const std::string& text) {
+    Block& block = module_.blocks[id];
+    editor_.SetWords(block, kept);
+    IdRange<ir::CommentId> comments{static_cast<std::uint32_t>(module_.comments.Size()), block.comments.count + 1};
+    ir::Comment comment;
+    comment.text = module_.strings.Intern(text);
+    comment.place = kept.empty() ? ir::CommentPlace::kOwnLine : ir::CommentPlace::kEndOfBlock;
+    module_.comments.Add(comment);
+    for (const ir::CommentId old : block.comments) {
+      const ir::Comment copy = module_.comments[old];
+      module_.comments.Add(copy);
+    }
+    block.comments = comments;
+  }
+  void Remove(BlockId id) { editor_.Remove(id); }
+  void Apply() { editor_.Apply(); }
+
+ private:
+  Module& module_;
+  ProgramEditor editor_;
+};
+
+/// A literal whole number, or none.
+std::optional<std::uint32_t> WholeNumber(const Module& module, ExprId id) {
+  if (!id.Valid()) return std::nullopt;
+  const ir::Expr& expr = module.exprs[id];
+  if (expr.op == ExprOp::kGroup || expr.op == ExprOp::kConvert) return WholeNumber(module, ExprId{expr.a});
+  if (expr.op != ExprOp::kLiteral || expr.number < 0 || expr.number != std::floor(expr.number) || expr.number > 4e9)
+    return std::nullopt;
+  return static_cast<std::uint32_t>(expr.number);
+}
+
+/// "0101" behind the T of `words`; digits only.
+std::uint32_t NumberBehind(std::string_view words, char letter, std::size_t* digits = nullptr) {
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] != letter || (i > 0 && words[i - 1] != ' ')) continue;
+    std::uint32_t number = 0;
+    const char* first = words.data() + i + 1;
+    const auto [last, error] = std::from_chars(first, words.data() + words.size(), number);
+    if (error != std::errc{}) continue;
+    if (digits != nullptr) *digits = static_cast<std::size_t>(last - first);
+    return number;
+  }
+  return 0;
+}
+
+}  // namespace
+
+void TextsToComments(const RaiseInput&, Translation& out, diag::Sink& sink) {
+  Module& module = out.module;
+  for (const ir::ProgramId program : module.programs.Ids()) {
+    CommentMaker maker(module, program);
+    for (const BlockId id : module.programs[program].blocks) {
+      const Block block = module.blocks[id];
+      std::vector<Word> kept;
+      std::string text;
+      for (const WordId word_id : block.words) {
+        const Word word = module.words[word_id];
+        std::string made;
+        switch (word.op) {
+          case WordOp::kMessage:
+          case WordOp::kPrint:
+            if (!word.value.Valid()) {
+              made = "MSG";
+              break;
+            }
+            made = "MSG ";
+            AppendMessage(module, word.value, made);
+            break;
+          case WordOp::kWorkpiece: {
+            made = "WORKPIECE";
+            for (const ir::ArgId arg : module.calls[word.Extra<ir::CallId>()].args) {
+              made += arg.value == module.calls[word.Extra<ir::CallId>()].args.begin ? " " : ",";
+              AppendMessage(module, module.args[arg].value, made);
+            }
+            break;
+          }
+          case WordOp::kPreprocessStop:
+            made = "STOPRE";
+            break;
+          case WordOp::kHeader:
+          case WordOp::kExtern:
+          case WordOp::kFileMark:
+            continue;
+          default:
+            kept.push_back(word);
+            continue;
+        }
+        out.messages_lost = out.messages_lost || word.op == WordOp::kMessage || word.op == WordOp::kPrint;
+        sink.Report(diag::Code::kListedLoss, module.RangeOf(block, word), made, "this target");
+        out.losses.push_back({module.RangeOf(block, word), made});
+        text += (text.empty() ? "" : " ") + made;
+      }
+      if (!text.empty()) {
+        maker.Replace(id, kept, text);
+      } else if (kept.size() != block.words.count) {
+        if (kept.empty() && block.comments.Empty()) {
+          maker.Remove(id);
+        } else {
+          module.blocks[id].words = {static_cast<std::uint32_t>(module.words.Size()),
+                                     static_cast<std::uint32_t>(kept.size())};
+          for (const Word& word : kept) module.words.Add(word);
+        }
+      }
+    }
+    maker.Apply();
+  }
+}
+
+bool MapTools(const RaiseInput& input, Translation& out, diag::Sink& sink) {
+  Module& module = out.module;
+  const bool lathe = input.profile->IsLathe();
+  bool ok = true;
+  for (const ir::ProgramId program : module.programs.Ids()) {
+    ProgramEditor editor(module, program, "map_tools");
+    std::string last_tool;          // the T word in force on the straight way down, as written
+    std::uint32_t work_offset = 0;  // selected on the straight way down; 0 = none
+    for (const BlockId id : module.programs[program].blocks) {
+      const Block block = module.blocks[id];
+      if (block.label.Valid() || block.number != Block::kNoNumber) last_tool.clear();
+      std::vector<Word> kept;
+      const Word* tool = nullptr;
+      const Word* edge = nullptr;
+      bool change = false;
+      for (const WordId word_id : block.words) {
+        const Word& word = module.words[word_id];
+        if (word.op == WordOp::kTool) {
+          tool = &word;
+        } else if (word.op == WordOp::kEdge) {
+          edge = &word;
+        } else if (word.op == WordOp::kToolChange) {
+          change = true;
+        } else {
+          kept.push_back(word);
+        }
+        if (word.op == WordOp::kWorkOffset) work_offset = word.extra;
+      }
+      if (tool == nullptr && edge == nullptr && !change) continue;
+      ToolUse use;
+      const Word& at = tool != nullptr ? *tool : edge != nullptr ? *edge : module.words[block.words[0]];
+      const SourceRange range = module.RangeOf(block, at);
+      if (tool != nullptr) {
+        const ir::Expr& value = module.exprs[tool->value];
+        if (value.op == ExprOp::kText) {
+          use.source_name = module.View(StringId{value.a});
+          last_tool = fmt::format("T=\"{}\"", use.source_name);
+        } else if (const auto number = WholeNumber(module, tool->value)) {
+          use.source_tool = *number;
+          last_tool = fmt::format("T{}", *number);
+        } else {
+          sink.Report(diag::Code::kNotExpressible, range, "a computed tool", input.profile->name);
+          ok = false;
+          continue;
+        }
+      } else if (last_tool.empty()) {
+        sink.Report(diag::Code::kNotExpressible, range, "an edge whose tool is not one here", input.profile->name)
+            .help = "an edge is a set of offsets of its tool: write T and D together";
+        ok = false;
+        continue;
+      }
+      use.source_words = last_tool;
+      if (edge != nullptr) {
+        const auto number = WholeNumber(module, edge->value);
+        if (!number) {
+          sink.Report(diag::Code::kNotExpressible, range, "a computed edge", input.profile->name);
+          ok = false;
+          continue;
+        }
+        use.source_edge = *number;
+        use.source_words += fmt::format(" D{}", *number);
+      } else if (tool != nullptr && input.source_machine->tool_activates_edge) {
+        use.source_edge = 1;
+      }
+      const dialects::WordMapping* mapping =
+          input.config == nullptr ? nullptr : input.config->FindTool(use.source_words);
+      if (mapping == nullptr) {
+        auto& finding = sink.Report(diag::Code::kUnmappedTool, range, use.source_words);
+        const std::string quote = use.source_words.find('"') == std::string::npos ? "\"" : "'";
+        finding.help = fmt::format("add to ncport.toml, with the words of your machine:  [tools]  {0}{1}{0} = \"{2}\"",
+                                   quote, use.source_words, lathe ? "T0101" : "T1 M6 H1 D1");
+        ok = false;
+        continue;
+      }
+      use.target_words = mapping->target;
+      std::size_t digits = 0;
+      const std::uint32_t number = NumberBehind(use.target_words, 'T', &digits);
+      if (lathe && use.target_words.find('.') == std::string::npos && digits >= 3) {
+        use.target_tool = digits > 4 ? number / 1000 : number / 100;
+        use.target_offset = digits > 4 ? number % 1000 : number % 100;
+      } else {
+        use.target_tool = number;
+        use.target_offset = NumberBehind(use.target_words, 'H');
+      }
+      const auto known = std::find_if(out.tools.begin(), out.tools.end(),
+                                      [&](const ToolUse& other) { return other.source_words == use.source_words; });
+      if (known == out.tools.end()) out.tools.push_back(use);
+      // T stands alone in its block (mazak-lathe-4.4); what stood beside it follows.
+      Block made = editor.MakeBlock(id);
+      made.number = block.number;
+      made.number_digits = block.number_digits;
+      made.label = block.label;
+      made.skip_level = block.skip_level;
+      made.comments = block.comments;
+      editor.SetWords(made, {TextWord(module, use.target_words)});
+      module.blocks[id].comments = {};
+      module.blocks[id].label = {};
+      module.blocks[id].number = Block::kNoNumber;
+      editor.InsertBefore(id, made);
+      if (lathe && work_offset != 0 && tool != nullptr) {
+        Word offset;
+        offset.op = WordOp::kWorkOffset;
+        offset.phase = ir::DefaultPhaseOf(WordOp::kWorkOffset);
+        offset.extra = work_offset;
+        Block again = editor.MakeBlock(id);
+        again.flags = Block::kAdded;
+        editor.SetWords(again, {offset});
+        editor.InsertBefore(id, again);
+      }
+      if (kept.empty()) {
+        editor.Remove(id);
+      } else {
+        Block rest = module.blocks[id];
+        editor.SetWords(rest, kept);
+        module.blocks[id].words = rest.words;
+      }
+    }
+    editor.Apply();
+  }
+  return ok;
+}
+
+bool MapWorkOffsets(const RaiseInput& input, Translation& out, diag::Sink& sink) {
+  Module& module = out.module;
+  bool ok = true;
+  for (const ir::ProgramId program : module.programs.Ids()) {
+    for (const BlockId id : module.programs[program].blocks) {
+      const Block block = module.blocks[id];
+      for (const WordId word_id : block.words) {
+        Word word = module.words[word_id];
+        if (word.op != WordOp::kWorkOffset) continue;
+        OffsetUse use{word.extra, 0, word.extra, 0};
+        const std::string name = fmt::format("G{}", word.extra);
+        const dialects::WordMapping* mapping = input.config == nullptr ? nullptr : input.config->FindOffset(name);
+        if (mapping != nullptr) {
+          use.target = NumberBehind(mapping->target, 'G');
+          use.target_extension = NumberBehind(mapping->target, 'P');
+          module.words[word_id] = TextWord(module, mapping->target);
+        } else if (word.extra < 54 || word.extra > 59) {
+          auto& finding = sink.Report(diag::Code::kUnmappedOffset, module.RangeOf(block, word),
+                                      word.extra == 0 ? std::string("none (G500)") : name);
+          finding.help = fmt::format("add to ncport.toml:  [offsets]  \"{}\" = \"G54.1 P1\"", name);
+          ok = false;
+          continue;
+        }
+        const auto known = std::find_if(out.offsets.begin(), out.offsets.end(),
+                                        [&](const OffsetUse& other) { return other.source == use.source; });
+        if (known == out.offsets.end()) out.offsets.push_back(use);
+      }
+    }
+  }
+  return ok;
+}
+
+bool MapAuxiliaries(const RaiseInput& input, Translation& out, diag::Sink& sink) {
+  Module& module = out.module;
+  bool ok = true;
+  const auto rule_for = [&](std::string_view name) -> const dialects::MCodeRule* {
+    const auto find = [&](const std::vector<dialects::MCodeRule>& rules) {
+      const auto rule =
+          std::find_if(rules.begin(), rules.end(), [&](const dialects::MCodeRule& r) { return r.source == name; });
+      return rule == rules.end() ? nullptr : &*rule;
+    };
+    if (input.config != nullptr) {
+      if (const auto* rule = find(input.config->mcodes)) return rule;
+    }
+    return find(input.profile->mcodes);
+  };
+  for (const ir::ProgramId program : module.programs.Ids()) {
+    for (const BlockId id : module.programs[program].blocks) {
+      Block block = module.blocks[id];
+      std::vector<Word> kept;
+      bool changed = false;
+      for (const WordId word_id : block.words) {
+        const Word word = module.words[word_id];
+        if (word.op != WordOp::kAux) {
+          kept.push_back(word);
+          continue;
+        }
+        const auto number = WholeNumber(module, word.value);
+        const bool common = number && (*number == 7 || *number == 8 || *number == 9);
+        const std::string name = number ? fmt::format("M{}", *number) : std::string("a computed M function");
+        const dialects::MCodeRule* rule = number ? rule_for(name) : nullptr;
+        if (rule == nullptr && !common) {
+          sink.Report(diag::Code::kUnmappedCode, module.RangeOf(block, word), name).help =
+              fmt::format("add to ncport.toml:  [mcodes]  \"{0}\" = \"{0}\"  (pass), another word, or \"drop\"", name);
+          ok = false;
+          continue;
+        }
+        AuxUse use{*number, *number};
+        if (rule == nullptr) {
+          kept.push_back(word);
+        } else if (rule->target == "drop") {
+          use.target.reset();
+          changed = true;
+          out.losses.push_back({module.RangeOf(block, word), name + " left out, as [mcodes] says"});
+        } else {
+          use.target = NumberBehind(rule->target, 'M');
+          kept.push_back(TextWord(module, rule->target));
+          changed = true;
+        }
+        out.aux.push_back(use);
+      }
+      if (!changed) continue;
+      block.words = {static_cast<std::uint32_t>(module.words.Size()), static_cast<std::uint32_t>(kept.size())};
+      for (const Word& word : kept) module.words.Add(word);
+      module.blocks[id].words = block.words;
+    }
+  }
+  return ok;
+}
+
+bool ArrangeSpindle(const RaiseInput& input, Translation& out, diag::Sink& sink) {
+  Module& module = out.module;
+  const dialects::Profile& profile = *input.profile;
+  const ir::analysis::FlowGraphs graphs(module);
+  const ir::analysis::CallGraph calls(module);
+  const ir::analysis::ModalFlow flow(
+      module, *input.source_machine, graphs, calls,
+      {input.source_machine->start, input.config != nullptr ? input.config->entry : ir::ModalState{}});
+  bool ok = true;
+  for (const ir::ProgramId program : module.programs.Ids()) {
+    ProgramEditor editor(module, program, "arrange_spindle");
+    for (const BlockId id : module.programs[program].blocks) {
+      const Block block = module.blocks[id];
+      std::vector<Word> limit, spindle, rest;
+      bool has_mode = false, has_speed = false, has_feed_mode = false, surface = false;
+      for (const WordId word_id : block.words) {
+        const Word word = module.words[word_id];
+        switch (word.op) {
+          case WordOp::kSpeedLimit:
+            limit.push_back(word);
+            break;
+          case WordOp::kSpeedMode:
+            has_mode = true;
+            surface = word.index == static_cast<std::uint8_t>(ir::SpeedMode::kConstantSurface);
+            spindle.insert(spindle.begin(), word);
+            break;
+          case WordOp::kSpeed:
+          case WordOp::kSpindle:
+            if (word.index != 0 && word.index != 1) {
+              sink.Report(diag::Code::kNotExpressible, module.RangeOf(block, word), "a second spindle", profile.name);
+              ok = false;
+            }
+            has_speed = has_speed || word.op == WordOp::kSpeed;
+            spindle.push_back(word);
+            break;
+          case WordOp::kFeedMode:
+            has_feed_mode = true;
+            rest.push_back(word);
+            break;
+          default:
+            rest.push_back(word);
+        }
+      }
+      if (limit.empty() && spindle.empty()) continue;
+      const ir::ModalState state = flow.At(program, id);
+      if (profile.IsLathe() && has_speed && !has_mode) {
+        // On a lathe S means 1/min or m/min by the mode in force: it is named with each S (mazak-lathe-5.2).
+        if (state.speed_mode == ir::SpeedMode::kUnknown) {
+          sink.Report(diag::Code::kUnknownModalState, module.RangeOf(block), "the speed mode (1/min or surface speed)",
+                      "the programs that lead here leave it open");
+          ok = false;
+        } else {
+          Word mode;
+          mode.op = WordOp::kSpeedMode;
+          mode.index = static_cast<std::uint8_t>(state.speed_mode);
+          mode.phase = ir::DefaultPhaseOf(WordOp::kSpeedMode);
+          spindle.insert(spindle.begin(), mode);
+        }
+      }
+      if (surface && input.source_machine->surface_speed_per_revolution && !has_feed_mode) {
+        Word mode;
+        mode.op = WordOp::kFeedMode;
+        mode.index = static_cast<std::uint8_t>(ir::FeedMode::kPerRevolution);
+        mode.phase = ir::DefaultPhaseOf(WordOp::kFeedMode);
+        rest.insert(rest.begin(), mode);
+      }
+      const std::string r_word = profile.spindle.r_word.Or("");
+      const bool r_everywhere = profile.machine_class.Is(dialects::MachineClass::kQuickTurn);
+      if (!r_word.empty() && r_everywhere && has_speed) spindle.push_back(TextWord(module, r_word));
+      const auto insert = [&](const std::vector<Word>& words) {
+        Block made = editor.MakeBlock(id);
+        made.skip_level = block.skip_level;
+        editor.SetWords(made, words);
+        editor.InsertBefore(id, made);
+      };
+      // The limit first: without it the spindle would run up as the tool nears the axis (hazards#5).
+      if (!limit.empty()) insert(limit);
+      const bool alone = rest.empty();
+      if (alone) {
+        Block changed = block;
+        editor.SetWords(changed, spindle);
+        module.blocks[id].words = changed.words;
+        if (spindle.empty()) editor.Remove(id);
+        continue;
+      }
+      Block changed = block;
+      editor.SetWords(changed, rest);
+      module.blocks[id].words = changed.words;
+      if (!spindle.empty()) {
+        Block made = editor.MakeBlock(id);
+        made.skip_level = block.skip_level;
+        editor.SetWords(made, spindle);
+        // Words before the motion stand in front of it, M5 behind.
+        const bool stops = std::all_of(spindle.begin(), spindle.end(),
+                                       [](const Word& word) { return word.phase == ir::Phase::kAfter; });
+        if (stops) {
+          editor.InsertAfter(id, made);
+        } else {
+          editor.InsertBefore(id, made);
+        }
+      }
+    }
+    editor.Apply();
+  }
+  return ok;
+}
+
+void NameMotions(const RaiseInput& input, Translation& out) {
+  Module& module = out.module;
+  const ir::analysis::FlowGraphs graphs(module);
+  const ir::analysis::CallGraph calls(module);
+  const ir::analysis::ModalFlow flow(
+      module, *input.source_machine, graphs, calls,
+      {input.source_machine->start, input.config != nullptr ? input.config->entry : ir::ModalState{}});
+  for (const ir::ProgramId program : module.programs.Ids()) {
+    ir::Motion running = ir::Motion::kUnknown;  // of the block before on the straight way down
+    for (const BlockId id : module.programs[program].blocks) {
+      Block& block = module.blocks[id];
+      bool moves = false, named = false, leaves = false;
+      for (const WordId word_id : block.words) {
+        const Word& word = module.words[word_id];
+        moves = moves || word.op == WordOp::kAxis || word.op == WordOp::kCenter || word.op == WordOp::kRadius;
+        named = named || word.op == WordOp::kMotion;
+        leaves = leaves || ir::DefaultPhaseOf(word.op) == ir::Phase::kFlow || word.op == WordOp::kInert;
+      }
+      if (block.label.Valid() || block.number != Block::kNoNumber || leaves || block.skip_level != Block::kNoSkip)
+        running = ir::Motion::kUnknown;
+      const ir::Motion motion = flow.At(program, id).motion;
+      if (moves && !named && motion != running && motion != ir::Motion::kUnknown) {
+        std::vector<Word> words;
+        Word word;
+        word.op = WordOp::kMotion;
+        word.index = static_cast<std::uint8_t>(motion);
+        word.phase = ir::DefaultPhaseOf(WordOp::kMotion);
+        words.push_back(word);
+        for (const WordId word_id : block.words) words.push_back(module.words[word_id]);
+        block.words = {static_cast<std::uint32_t>(module.words.Size()), static_cast<std::uint32_t>(words.size())};
+        for (const Word& each : words) module.words.Add(each);
+      }
+      if (moves || named) running = motion;
+      if (leaves || block.skip_level != Block::kNoSkip) running = ir::Motion::kUnknown;
+    }
+  }
+}
+
+}  // namespace ncport::backends::fanuc

@@ -25,7 +25,12 @@ class Pass {
   SplitResult Run();
 
  private:
-  [[nodiscard]] bool CallsTool(const Block& block) const {}
+  [[nodiscard]] bool CallsTool(const Block& block) const {
+    for (const WordId id : block.words) {
+      if (module_.words[id].op == WordOp::kTool) return true;
+    }
+    return false;
+  }
   void Refuse(const Block& block, std::string_view what) {
     ok_ = false;
     sink_.Report(diag::Code::kNotExpressible, module_.RangeOf(block), what, "a machine whose macros call no tools")

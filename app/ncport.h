@@ -4,7 +4,7 @@
 //   std::string text;
 //   OutputSink output(text);
 //   ncport::TraceOptions options;
-//   options.run.from = "sinumerik-840d-mill";
+//   options.from = "sinumerik-840d-mill";
 //   const bool done = ncport::Trace(context, {{"main.mpf", bytes}}, options, output).Ok();
 //   // context.findings holds what was found
 #pragma once
@@ -63,9 +63,12 @@ struct TraceOptions : RunSettings {
 struct FlattenOptions : RunSettings {
   std::string to;                            // profile of the output; empty: from `config`
   bool side_by_side = false;                 // source blocks beside flat ones, for reading; not a program
-  OutputSink* source_map = nullptr;          // JSON lines {version, out, file, line, calls, turns}
-  std::string output_name;                   // `out` of the source map
+  OutputSink* source_map = nullptr;          // JSON lines, see backends/iso/source_map.h
   std::uint64_t max_bytes = std::uint64_t{1} << 30U;
+};
+
+struct TranslateOptions : ReadSettings {
+  std::string to;                            // profile of the output; empty: from `config`
 };
 
 struct CheckOptions : ReadSettings {
@@ -82,6 +85,9 @@ Status Trace(Context& context, const std::vector<Input>& inputs, const TraceOpti
 
 /// Runs the program and writes flat blocks. After a failure what was written is worthless.
 Status Flatten(Context& context, const std::vector<Input>& inputs, const FlattenOptions& options, OutputSink& output);
+
+/// Writes the programs in the language of the target, loops and variables kept. Fails after errors.
+Status Translate(Context& context, const std::vector<Input>& inputs, const TranslateOptions& options, OutputSink& output);
 
 /// Reads and checks all programs. Fails when an error was found. Findings that a comment `ncport: ignore NCxxxx` or the options
 /// silence are not in the context.

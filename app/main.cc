@@ -1,0 +1,387 @@
+// The command line: options, files, exit codes. What the commands do is in the library (app/ncport.h).
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/lists.h"
+#include "app/ncport.h"
+#include "app/output_file.h"
+#include "app/program_folders.h"
+#include "base/diag/github_renderer.h"
+#include "base/diag/json_renderer.h"
+#include "base/diag/sarif_renderer.h"
+#include "base/diag/text_renderer.h"
+
+namespace ncport::app {
+namespace {
+
+// Contracts section 2.
+enum Exit : int { kDone = 0, kFindings = 1, kUsage = 2 };
+
+void Say(std::string_view text) { fmt::print(stderr, "ncport: {}\n", text); }
+
+/// Options of all commands that read programs.
+struct Common {
+  std::vector<std::string> files;
+  std::vector<std::string> folders;
+  std::string from;
+  std::string config;
+  bool quiet = false;
+};
+
+struct Running {
+  std::string call;
+  std::vector<std::string> set;
+  std::string start;
+  std::uint64_t max_blocks = RunSettings{}.max_blocks;
+};
+
+/// Inputs, configuration and findings of one command.
+class Session {
+ public:
+  explicit Session(const Common& common) : common_(common), folders_(common.folders) {}
+
+  /// Reads configuration and inputs. False: a message was printed, the exit code is kUsage.
+  bool Read() {
+    for (const std::string& file : common_.files) {
+      std::string error;
+      std::optional<std::string> bytes = ReadBytes(file, error);
+      if (!bytes) {
+        Say(error);
+        return false;
+      }
+      inputs_.push_back({file == "-" ? "(stdin)" : file, *std::move(bytes)});
+    }
+    const bool named = !common_.config.empty();
+    Result<dialects::Config> config = named ? dialects::LoadConfig(common_.config, context.files, context.findings)
+                                            : dialects::FindConfig(common_.files.front(), context.files, context.findings);
+    if (!config.Ok()) {
+      PrintFindings();
+      return false;
+    }
+    config_ = std::move(config).Value();
+    // Text without a name says nothing about its language (contracts section 2).
+    for (const std::string& file : common_.files) {
+      if (file != "-" || !common_.from.empty() || config_.from) continue;
+      Say("standard input needs --from");
+      return false;
+    }
+    return true;
+  }
+
+  void Fill(ReadSettings& settings) {
+    settings.from = common_.from;
+    settings.config = &config_;
+    settings.find = [this](std::string_view program) { return folders_.Find(program); };
+  }
+  void Fill(RunSettings& settings, const Running& running) {
+    Fill(settings);
+    settings.call = running.call;
+    settings.set = running.set;
+    settings.start = running.start;
+    settings.max_blocks = running.max_blocks;
+  }
+
+  /// Findings to standard error, in the order of their places. --quiet leaves errors only.
+  void PrintFindings() {
+    if (common_.quiet) {
+      context.findings.Remove([](const diag::Diagnostic& finding) { return finding.severity != diag::Severity::kError; });
+    }
+    context.findings.SortByPlace();
+    const std::string text = diag::RenderText(context.findings, context.files);
+    (void)std::fwrite(text.data(), 1, text.size(), stderr);
+  }
+
+  /// Exit code of a command that ended with `ok`, its findings printed.
+  int End(Status ok) {
+    PrintFindings();
+    if (!folders_.Error().empty()) {
+      Say(folders_.Error());
+      return kUsage;
+    }
+    if (ok.Ok()) return kDone;
+    // Findings about options have no place in a file: they are wrong usage when nothing else was wrong.
+    for (const diag::Diagnostic& finding : context.findings.All()) {
+      if (finding.severity == diag::Severity::kError && !IsUsage(finding.code)) return kFindings;
+    }
+    return context.findings.HasErrors() ? kUsage : kFindings;
+  }
+
+  [[nodiscard]] const std::vector<Input>& Inputs() const { return inputs_; }
+  [[nodiscard]] const dialects::Config& Config() const { return config_; }
+  [[nodiscard]] const std::string& FolderError() const { return folders_.Error(); }
+
+  Context context;
+
+ private:
+  static bool IsUsage(diag::Code code) {
+    return code == diag::Code::kBadOption || code == diag::Code::kNoProfile || code == diag::Code::kUnclearLanguage ||
+           code == diag::Code::kUnknownProfile || code == diag::Code::kUnreadableFile;
+  }
+
+  const Common& common_;
+  ProgramFolders folders_;
+  std::vector<Input> inputs_;
+  dialects::Config config_;
+};
+
+/// Writes a text that is complete to standard output.
+int Print(std::string_view text) {
+  OutputSink out(STDOUT_FILENO);
+  if (out.Write(text).Ok()) return kDone;
+  Say(fmt::format("cannot write standard output: {}", std::strerror(out.Error())));
+  return kUsage;
+}
+
+// --- commands
+
+struct TraceArguments : Common, Running {
+  std::string format = "text";
+  bool variables = false;
+};
+
+int RunTrace(const TraceArguments& arguments) {
+  Session session(arguments);
+  if (!session.Read()) return kUsage;
+  TraceOptions options;
+  session.Fill(options, arguments);
+  options.format = arguments.format == "json" ? TraceFormat::kJson : TraceFormat::kText;
+  options.variables = arguments.variables;
+  OutputSink out(STDOUT_FILENO);
+  const Status ok = Trace(session.context, session.Inputs(), options, out);
+  const int code = session.End(ok);
+  if (out.Error() != 0) {
+    Say(fmt::format("cannot write standard output: {}", std::strerror(out.Error())));
+    return kUsage;
+  }
+  return code;
+}
+
+struct FlattenArguments : Common, Running {
+  std::string to, output = "-", source_map;
+  bool side_by_side = false;
+  std::uint64_t max_output = FlattenOptions{}.max_bytes;
+};
+
+int RunFlatten(const FlattenArguments& arguments) {
+  Session session(arguments);
+  if (!session.Read()) return kUsage;
+  std::vector<std::unique_ptr<OutputFile>> files;
+  files.push_back(std::make_unique<OutputFile>(arguments.output));
+  if (!arguments.source_map.empty()) files.push_back(std::make_unique<OutputFile>(arguments.source_map));
+  for (const auto& file : files) {
+    if (file->Open().Ok()) continue;
+    Say(file->Error());
+    return kUsage;
+  }
+  FlattenOptions options;
+  session.Fill(options, arguments);
+  options.to = arguments.to;
+  options.side_by_side = arguments.side_by_side;
+  options.max_bytes = arguments.max_output;
+  if (files.size() > 1) options.source_map = &files[1]->Text();
+  const Status ok = Flatten(session.context, session.Inputs(), options, files[0]->Text());
+  const int code = session.End(ok);
+  std::string error;
+  // A failed write explains a failure without findings, and is wrong use of the disk, not an error of the program.
+  const bool writing_failed = files[0]->Text().Error() != 0 || (files.size() > 1 && files[1]->Text().Error() != 0);
+  if (code != kDone && !writing_failed) return code;
+  if (CommitAll(files, error).Ok()) return code;
+  Say(error);
+  return kUsage;
+}
+
+struct CheckArguments : Common {
+  std::string format = "text", fail_on;
+  std::vector<std::string> select, ignore;
+};
+
+int RunCheck(const CheckArguments& arguments) {
+  Session session(arguments);
+  if (!session.Read()) return kUsage;
+  CheckOptions options;
+  session.Fill(options);
+  options.select = arguments.select.empty() ? session.Config().select : arguments.select;
+  options.ignore = arguments.ignore.empty() ? session.Config().ignore : arguments.ignore;
+  (void)Check(session.context, session.Inputs(), options);
+
+  // Wrong usage is no finding of the programs.
+  Context& context = session.context;
+  for (const diag::Diagnostic& finding : context.findings.All()) {
+    const bool usage = finding.code == diag::Code::kUnclearLanguage || finding.code == diag::Code::kUnknownProfile;
+    if (usage) return session.End(Failure{});
+  }
+  if (!session.FolderError().empty()) return session.End(Failure{});
+
+  dialects::FailOn fail_on = session.Config().fail_on.value_or(dialects::FailOn::kError);
+  if (arguments.fail_on == "error") fail_on = dialects::FailOn::kError;
+  if (arguments.fail_on == "warning") fail_on = dialects::FailOn::kWarning;
+  if (arguments.fail_on == "never") fail_on = dialects::FailOn::kNever;
+  const bool errors = context.findings.HasErrors();
+  const bool warnings = context.findings.WarningCount() != 0;
+
+  if (arguments.quiet) {
+    context.findings.Remove([](const diag::Diagnostic& finding) { return finding.severity != diag::Severity::kError; });
+  }
+  context.findings.SortByPlace();
+  std::string report;
+  if (arguments.format == "json") {
+    report = diag::RenderJson(context.findings, context.files);
+  } else if (arguments.format == "sarif") {
+    report = diag::RenderSarif(context.findings, context.files, Version());
+  } else if (arguments.format == "github") {
+    report = diag::RenderGithub(context.findings, context.files);
+  } else {
+    report = diag::RenderText(context.findings, context.files);
+  }
+  const int written = Print(report);
+  if (written != kDone) return written;
+  const bool failed = fail_on == dialects::FailOn::kError ? errors : fail_on == dialects::FailOn::kWarning && (errors || warnings);
+  return failed ? kFindings : kDone;
+}
+
+struct DumpArguments : Common {
+  std::string stage = "ir";
+};
+
+int RunDump(const DumpArguments& arguments) {
+  Session session(arguments);
+  if (!session.Read()) return kUsage;
+  DumpOptions options;
+  session.Fill(options);
+  options.stage = arguments.stage == "tokens" ? DumpStage::kTokens : arguments.stage == "cfg" ? DumpStage::kCfg : DumpStage::kIr;
+  OutputSink out(STDOUT_FILENO);
+  const Status ok = Dump(session.context, session.Inputs(), options, out);
+  return session.End(ok);
+}
+
+struct TranslateArguments : Common {
+  std::string to, output = "-";
+};
+
+int RunTranslate(const TranslateArguments& arguments) {
+  Session session(arguments);
+  if (!session.Read()) return kUsage;
+  TranslateOptions options;
+  session.Fill(options);
+  options.to = arguments.to;
+  OutputFile file(arguments.output);
+  if (!file.Open().Ok()) {
+    Say(file.Error());
+    return kUsage;
+  }
+  const Status ok = Translate(session.context, session.Inputs(), options, file.Text());
+  const int code = session.End(ok);
+  if (code != kDone) return code;
+  if (file.Commit().Ok()) return code;
+  Say(file.Error());
+  return kUsage;
+}
+
+int RunExplain(const std::string& code) {
+  const std::string_view page = Explain(code);
+  if (!page.empty()) return Print(page);
+  Say(fmt::format("there is no diagnostic {}; `ncport list rules` shows all", code));
+  return kUsage;
+}
+
+// --- options
+
+void AddCommon(CLI::App& command, Common& common) {
+  command.add_option("FILE", common.files, "program files; the first program of the first file is the main program; - = standard input")
+      ->required();
+  command.add_option("--from", common.from, "profile of the programs: a name or a file (ncport list profiles)");
+  command.add_option("-I", common.folders, "folder in which called programs are looked up")->type_name("DIR")->allow_extra_args(false);
+  command.add_option("--config", common.config, "configuration file; default: the nearest ncport.toml");
+  command.add_flag("--quiet", common.quiet, "no notes and warnings");
+}
+
+void AddRunning(CLI::App& command, Running& running) {
+  command.add_option("--call", running.call, "run this program with constants as arguments: 'RING(10,,2.5)'");
+  command.add_option("--set", running.set, "start value of a variable: NAME=VALUE")->allow_extra_args(false);
+  command.add_option("--start", running.start, "position at the start, as the profile programs it: X0Y0Z0");
+  command.add_option("--max-blocks", running.max_blocks, "executed blocks after which the run is stopped");
+}
+
+int Main(int argc, char** argv) {
+  InstallCleanup();
+  CLI::App app{"Compiler for CNC programs: runs, checks and writes them again"};
+  app.name("ncport");
+  app.set_version_flag("--version", std::string("ncport ") + std::string(Version()));
+  app.require_subcommand(1);
+  int code = kDone;
+
+  TranslateArguments translate;
+  CLI::App* command = app.add_subcommand("translate", "writes programs for another control");
+  AddCommon(*command, translate);
+  command->add_option("--to", translate.to, "profile of the target");
+  command->add_option("-o", translate.output, "file or folder to write")->type_name("FILE|DIR");
+  command->callback([&] { code = RunTranslate(translate); });
+
+  FlattenArguments flatten;
+  command = app.add_subcommand("flatten", "runs a program and writes every block with literal values");
+  AddCommon(*command, flatten);
+  AddRunning(*command, flatten);
+  command->add_option("--to", flatten.to, "profile of the output: iso-mill, iso-lathe");
+  command->add_option("-o", flatten.output, "file to write")->type_name("FILE");
+  command->add_option("--source-map", flatten.source_map, "file for the places that the blocks come from, as JSON lines")->type_name("FILE");
+  command->add_flag("--side-by-side", flatten.side_by_side, "source blocks beside their flat blocks, for reading");
+  command->add_option("--max-output", flatten.max_output, "longest output in bytes");
+  command->callback([&] { code = RunFlatten(flatten); });
+
+  CheckArguments check;
+  command = app.add_subcommand("check", "looks for mistakes without running");
+  AddCommon(*command, check);
+  command->add_option("--format", check.format, "form of the report")->check(CLI::IsMember({"text", "json", "sarif", "github"}));
+  command->add_option("--fail-on", check.fail_on, "what gives exit code 1")->check(CLI::IsMember({"error", "warning", "never"}));
+  command->add_option("--select", check.select, "only these codes, or codes that begin so")->delimiter(',')->allow_extra_args(false);
+  command->add_option("--ignore", check.ignore, "not these codes")->delimiter(',')->allow_extra_args(false);
+  command->callback([&] { code = RunCheck(check); });
+
+  TraceArguments trace;
+  command = app.add_subcommand("trace", "runs a program and prints what the machine would do");
+  AddCommon(*command, trace);
+  AddRunning(*command, trace);
+  command->add_flag("--vars", trace.variables, "final values of the variables");
+  command->add_option("--format", trace.format, "form of the events")->check(CLI::IsMember({"text", "json"}));
+  command->callback([&] { code = RunTrace(trace); });
+
+  DumpArguments dump;
+  command = app.add_subcommand("dump", "shows a stage of the compiler as text");
+  AddCommon(*command, dump);
+  command->add_option("--stage", dump.stage, "which stage")->check(CLI::IsMember({"tokens", "ir", "cfg"}));
+  command->callback([&] { code = RunDump(dump); });
+
+  std::string explained;
+  command = app.add_subcommand("explain", "one page on a diagnostic");
+  command->add_option("CODE", explained, "NC and four digits")->required();
+  command->callback([&] { code = RunExplain(explained); });
+
+  std::string list_what;
+  std::string list_format = "text";
+  command = app.add_subcommand("list", "what ncport knows: profiles, rules, languages");
+  command->add_option("WHAT", list_what, "profiles, rules or languages")->required()->check(CLI::IsMember({"profiles", "rules", "languages"}));
+  command->add_option("--format", list_format, "form of the list")->check(CLI::IsMember({"text", "json"}));
+  command->callback([&] { code = Print(List(list_what, list_format == "json")); });
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const bool asked = error.get_exit_code() == 0;  // --help, --version
+    app.exit(error, asked ? std::cout : std::cerr, std::cerr);
+    return asked ? kDone : kUsage;
+  }
+  return code;
+}
+
+}  // namespace
+}  // namespace ncport::app
+
+int main(int argc, char** argv) { return ncport::app::Main(argc, argv); }

@@ -23,7 +23,7 @@ bool MatchesAny(std::string_view number, const std::vector<std::string>& codes) 
 
 /// One `ncport: ignore NC3001` of a comment.
 struct Ignore {
-  SourceRange at;            // the whole block
+  SourceRange at;  // the whole block
   std::string code;
   bool used = false;
 };
@@ -62,7 +62,8 @@ Ignores CollectIgnores(const ir::Module& module) {
           break;
         }
       }
-      for (const ir::CommentId comment : block.comments) AddCodes(module.View(module.comments[comment].text), own, silenced, ignores);
+      for (const ir::CommentId comment : block.comments)
+        AddCodes(module.View(module.comments[comment].text), own, silenced, ignores);
     }
   }
   return ignores;
@@ -85,7 +86,9 @@ Status Check(Context& context, const std::vector<Input>& inputs, const CheckOpti
     return false;
   });
   for (const auto& [place, ignore] : ignores) {
-    if (!ignore.used) context.findings.Report(diag::Code::kUselessIgnore, ignore.at).help = "take " + ignore.code + " out of the comment";
+    if (!ignore.used)
+      context.findings.Report(diag::Code::kUselessIgnore, ignore.at).help =
+          "take " + ignore.code + " out of the comment";
   }
 
   context.findings.Remove([&](const diag::Diagnostic& finding) {

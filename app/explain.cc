@@ -11,7 +11,8 @@ std::string_view Explain(std::string_view code) {
     if (begin == std::string_view::npos) return {};
     rest.remove_prefix(begin);
     const std::size_t next = rest.find("\n## NC", 1);
-    if (rest.substr(3).starts_with(code) && code.size() == 6) return rest.substr(0, next == std::string_view::npos ? next : next + 1);
+    if (rest.substr(3).starts_with(code) && code.size() == 6)
+      return rest.substr(0, next == std::string_view::npos ? next : next + 1);
     if (next == std::string_view::npos) return {};
     rest.remove_prefix(next + 1);
   }

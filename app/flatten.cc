@@ -30,8 +30,8 @@ class Listeners final : public FlatListener {
 };
 
 /// First lines of the output: the source, the machines, and the settings of the run.
-std::vector<std::string> Heading(const std::vector<Input>& inputs, const FlattenOptions& options, const dialects::Profile& from,
-                                 const dialects::Profile& to) {
+std::vector<std::string> Heading(const std::vector<Input>& inputs, const FlattenOptions& options,
+                                 const dialects::Profile& from, const dialects::Profile& to) {
   std::string_view name = inputs.front().name;
   name = name.substr(name.rfind('/') + 1);
   std::vector<std::string> lines = {fmt::format("{} from {} to {}, ncport {}", name, from.name, to.name, Version())};
@@ -48,13 +48,15 @@ Status Flatten(Context& context, const std::vector<Input>& inputs, const Flatten
   std::string target_name = options.to;
   if (target_name.empty() && options.config != nullptr) target_name = options.config->to.value_or("");
   if (target_name.empty()) {
-    context.findings.Report(diag::Code::kNoProfile, SourceRange{}, "the output").help = "name the target with --to, for example --to iso-mill";
+    context.findings.Report(diag::Code::kNoProfile, SourceRange{}, "the output").help =
+        "name the target with --to, for example --to iso-mill";
     return Failure{};
   }
-  NCPORT_TRY_ASSIGN(const dialects::Profile target, dialects::LoadProfile(target_name, context.files, context.findings));
+  NCPORT_TRY_ASSIGN(const dialects::Profile target,
+                    dialects::LoadProfile(target_name, context.files, context.findings));
   if (target.language != dialects::Language::kIso) {
-    context.findings.Report(diag::Code::kNotExpressible, SourceRange{}, "a program of literal blocks", target.name).help =
-        "flat blocks are written for iso profiles, for example --to iso-mill";
+    context.findings.Report(diag::Code::kNotExpressible, SourceRange{}, "a program of literal blocks", target.name)
+        .help = "flat blocks are written for iso profiles, for example --to iso-mill";
     return Failure{};
   }
   app::ProgramSet set;

@@ -1,8 +1,8 @@
 // The command line: options, files, exit codes. What the commands do is in the library (app/ncport.h).
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -60,8 +60,9 @@ class Session {
       inputs_.push_back({file == "-" ? "(stdin)" : file, *std::move(bytes)});
     }
     const bool named = !common_.config.empty();
-    Result<dialects::Config> config = named ? dialects::LoadConfig(common_.config, context.files, context.findings)
-                                            : dialects::FindConfig(common_.files.front(), context.files, context.findings);
+    Result<dialects::Config> config =
+        named ? dialects::LoadConfig(common_.config, context.files, context.findings)
+              : dialects::FindConfig(common_.files.front(), context.files, context.findings);
     if (!config.Ok()) {
       PrintFindings();
       return false;
@@ -92,7 +93,8 @@ class Session {
   /// Findings to standard error, in the order of their places. --quiet leaves errors only.
   void PrintFindings() {
     if (common_.quiet) {
-      context.findings.Remove([](const diag::Diagnostic& finding) { return finding.severity != diag::Severity::kError; });
+      context.findings.Remove(
+          [](const diag::Diagnostic& finding) { return finding.severity != diag::Severity::kError; });
     }
     context.findings.SortByPlace();
     const std::string text = diag::RenderText(context.findings, context.files);
@@ -243,7 +245,8 @@ int RunCheck(const CheckArguments& arguments) {
   }
   const int written = Print(report);
   if (written != kDone) return written;
-  const bool failed = fail_on == dialects::FailOn::kError ? errors : fail_on == dialects::FailOn::kWarning && (errors || warnings);
+  const bool failed =
+      fail_on == dialects::FailOn::kError ? errors : fail_on == dialects::FailOn::kWarning && (errors || warnings);
   return failed ? kFindings : kDone;
 }
 
@@ -256,7 +259,9 @@ int RunDump(const DumpArguments& arguments) {
   if (!session.Read()) return kUsage;
   DumpOptions options;
   session.Fill(options);
-  options.stage = arguments.stage == "tokens" ? DumpStage::kTokens : arguments.stage == "cfg" ? DumpStage::kCfg : DumpStage::kIr;
+  options.stage = arguments.stage == "tokens" ? DumpStage::kTokens
+                  : arguments.stage == "cfg"  ? DumpStage::kCfg
+                                              : DumpStage::kIr;
   OutputSink out(STDOUT_FILENO);
   const Status ok = Dump(session.context, session.Inputs(), options, out);
   return session.End(ok);
@@ -295,10 +300,14 @@ int RunExplain(const std::string& code) {
 // --- options
 
 void AddCommon(CLI::App& command, Common& common) {
-  command.add_option("FILE", common.files, "program files; the first program of the first file is the main program; - = standard input")
+  command
+      .add_option("FILE", common.files,
+                  "program files; the first program of the first file is the main program; - = standard input")
       ->required();
   command.add_option("--from", common.from, "profile of the programs: a name or a file (ncport list profiles)");
-  command.add_option("-I", common.folders, "folder in which called programs are looked up")->type_name("DIR")->allow_extra_args(false);
+  command.add_option("-I", common.folders, "folder in which called programs are looked up")
+      ->type_name("DIR")
+      ->allow_extra_args(false);
   command.add_option("--config", common.config, "configuration file; default: the nearest ncport.toml");
   command.add_flag("--quiet", common.quiet, "no notes and warnings");
 }
@@ -331,7 +340,9 @@ int Main(int argc, char** argv) {
   AddRunning(*command, flatten);
   command->add_option("--to", flatten.to, "profile of the output: iso-mill, iso-lathe");
   command->add_option("-o", flatten.output, "file to write")->type_name("FILE");
-  command->add_option("--source-map", flatten.source_map, "file for the places that the blocks come from, as JSON lines")->type_name("FILE");
+  command
+      ->add_option("--source-map", flatten.source_map, "file for the places that the blocks come from, as JSON lines")
+      ->type_name("FILE");
   command->add_flag("--side-by-side", flatten.side_by_side, "source blocks beside their flat blocks, for reading");
   command->add_option("--max-output", flatten.max_output, "longest output in bytes");
   command->callback([&] { code = RunFlatten(flatten); });
@@ -339,9 +350,13 @@ int Main(int argc, char** argv) {
   CheckArguments check;
   command = app.add_subcommand("check", "looks for mistakes without running");
   AddCommon(*command, check);
-  command->add_option("--format", check.format, "form of the report")->check(CLI::IsMember({"text", "json", "sarif", "github"}));
-  command->add_option("--fail-on", check.fail_on, "what gives exit code 1")->check(CLI::IsMember({"error", "warning", "never"}));
-  command->add_option("--select", check.select, "only these codes, or codes that begin so")->delimiter(',')->allow_extra_args(false);
+  command->add_option("--format", check.format, "form of the report")
+      ->check(CLI::IsMember({"text", "json", "sarif", "github"}));
+  command->add_option("--fail-on", check.fail_on, "what gives exit code 1")
+      ->check(CLI::IsMember({"error", "warning", "never"}));
+  command->add_option("--select", check.select, "only these codes, or codes that begin so")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   command->add_option("--ignore", check.ignore, "not these codes")->delimiter(',')->allow_extra_args(false);
   command->callback([&] { code = RunCheck(check); });
 
@@ -367,7 +382,9 @@ int Main(int argc, char** argv) {
   std::string list_what;
   std::string list_format = "text";
   command = app.add_subcommand("list", "what ncport knows: profiles, rules, languages");
-  command->add_option("WHAT", list_what, "profiles, rules or languages")->required()->check(CLI::IsMember({"profiles", "rules", "languages"}));
+  command->add_option("WHAT", list_what, "profiles, rules or languages")
+      ->required()
+      ->check(CLI::IsMember({"profiles", "rules", "languages"}));
   command->add_option("--format", list_format, "form of the list")->check(CLI::IsMember({"text", "json"}));
   command->callback([&] { code = Print(List(list_what, list_format == "json")); });
 

@@ -36,43 +36,44 @@ struct Input {
   std::string bytes;
 };
 
-/// Finds the file of a called program by the name that the call gives (`RING`, `L10`, `O9810`); nothing: it is not there.
+/// Finds the file of a called program by the name that the call gives (`RING`, `L10`, `O9810`); nothing: it is not
+/// there.
 using FileProvider = std::function<std::optional<Input>(std::string_view program)>;
 
 /// What every function takes.
 struct ReadSettings {
-  std::string from;                          // profile of the input; empty: from `config`, else guessed where that is allowed
+  std::string from;  // profile of the input; empty: from `config`, else guessed where that is allowed
   const dialects::Config* config = nullptr;  // ncport.toml
   FileProvider find;                         // may be empty: all programs are among the inputs
 };
 
 /// What the functions take that run a program.
 struct RunSettings : ReadSettings {
-  std::string call;                          // `RING(10,,2.5)`; empty: the first program of the first input
-  std::vector<std::string> set;              // `R1=5`, `NAME=VALUE`
-  std::string start;                         // `X0Y0Z0` as the profile programs them; empty: position unknown
+  std::string call;              // `RING(10,,2.5)`; empty: the first program of the first input
+  std::vector<std::string> set;  // `R1=5`, `NAME=VALUE`
+  std::string start;             // `X0Y0Z0` as the profile programs them; empty: position unknown
   std::uint64_t max_blocks = 10'000'000;
 };
 
 enum class TraceFormat : std::uint8_t { kText, kJson };
 struct TraceOptions : RunSettings {
   TraceFormat format = TraceFormat::kText;
-  bool variables = false;                    // final values behind the last event
+  bool variables = false;  // final values behind the last event
 };
 
 struct FlattenOptions : RunSettings {
-  std::string to;                            // profile of the output; empty: from `config`
-  bool side_by_side = false;                 // source blocks beside flat ones, for reading; not a program
-  OutputSink* source_map = nullptr;          // JSON lines, see backends/iso/source_map.h
+  std::string to;                    // profile of the output; empty: from `config`
+  bool side_by_side = false;         // source blocks beside flat ones, for reading; not a program
+  OutputSink* source_map = nullptr;  // JSON lines, see backends/iso/source_map.h
   std::uint64_t max_bytes = std::uint64_t{1} << 30U;
 };
 
 struct TranslateOptions : ReadSettings {
-  std::string to;                            // profile of the output; empty: from `config`
+  std::string to;  // profile of the output; empty: from `config`
 };
 
 struct CheckOptions : ReadSettings {
-  std::vector<std::string> select, ignore;   // codes or their first characters (`NC5`); empty select: all
+  std::vector<std::string> select, ignore;  // codes or their first characters (`NC5`); empty select: all
 };
 
 enum class DumpStage : std::uint8_t { kTokens, kIr, kCfg };
@@ -87,10 +88,11 @@ Status Trace(Context& context, const std::vector<Input>& inputs, const TraceOpti
 Status Flatten(Context& context, const std::vector<Input>& inputs, const FlattenOptions& options, OutputSink& output);
 
 /// Writes the programs in the language of the target, loops and variables kept. Fails after errors.
-Status Translate(Context& context, const std::vector<Input>& inputs, const TranslateOptions& options, OutputSink& output);
+Status Translate(Context& context, const std::vector<Input>& inputs, const TranslateOptions& options,
+                 OutputSink& output);
 
-/// Reads and checks all programs. Fails when an error was found. Findings that a comment `ncport: ignore NCxxxx` or the options
-/// silence are not in the context.
+/// Reads and checks all programs. Fails when an error was found. Findings that a comment `ncport: ignore NCxxxx` or the
+/// options silence are not in the context.
 Status Check(Context& context, const std::vector<Input>& inputs, const CheckOptions& options);
 
 /// Shows a stage of the compiler as text.

@@ -1,6 +1,7 @@
-// Results that are written whole or not at all (contracts section 2): text goes to a temporary file beside the target, which is
-// renamed at the end. Targets that are no regular files (/dev/null, a pipe, standard output) get the text when it is complete.
-// Temporary files go away on failure, on SIGINT and SIGTERM, and when ncport stops over a bug of its own.
+// Results that are written whole or not at all (contracts section 2): text goes to a temporary file beside the target,
+// which is renamed at the end. Targets that are no regular files (/dev/null, a pipe, standard output) get the text when
+// it is complete. Temporary files go away on failure, on SIGINT and SIGTERM, and when ncport stops over a bug of its
+// own.
 #pragma once
 
 #include <cstddef>
@@ -41,16 +42,17 @@ class OutputFile {
 
   std::string path_;
   std::string error_;
-  std::size_t slot_ = 0;     // of the temporary file in the cleanup table, from 1; 0 = none
-  std::string temporary_;    // empty: the temporary file has no name any more
+  std::size_t slot_ = 0;   // of the temporary file in the cleanup table, from 1; 0 = none
+  std::string temporary_;  // empty: the temporary file has no name any more
   int fd_ = -1;
-  bool in_place_ = false;    // the target is not a regular file
-  bool direct_ = false;      // a target that keeps nothing (/dev/null): no temporary file
+  bool in_place_ = false;  // the target is not a regular file
+  bool direct_ = false;    // a target that keeps nothing (/dev/null): no temporary file
   bool prepared_ = false;
   std::unique_ptr<OutputSink> text_;
 };
 
-/// Several results as one: all temporary files are complete before the first one is renamed. Fails with a message in `error`.
+/// Several results as one: all temporary files are complete before the first one is renamed. Fails with a message in
+/// `error`.
 Status CommitAll(std::vector<std::unique_ptr<OutputFile>>& files, std::string& error);
 
 }  // namespace ncport::app

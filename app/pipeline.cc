@@ -18,7 +18,8 @@ namespace {
 Status AddFile(Context& context, const Input& input, FileId& id) {
   if (input.bytes.size() > SourceFiles::kMaxBytes) {
     id = context.files.Add(input.name, {});
-    context.findings.Report(diag::Code::kFileTooLarge, SourceRange{.file = id}, input.bytes.size(), SourceFiles::kMaxBytes);
+    context.findings.Report(diag::Code::kFileTooLarge, SourceRange{.file = id}, input.bytes.size(),
+                            SourceFiles::kMaxBytes);
     return Failure{};
   }
   DecodedText decoded = DecodeText(input.bytes);
@@ -27,7 +28,8 @@ Status AddFile(Context& context, const Input& input, FileId& id) {
     context.findings.Report(diag::Code::kBinaryFile, SourceRange{.file = id}, std::string(decoded.binary_reason));
     return Failure{};
   }
-  if (decoded.control_bytes != 0) context.findings.Report(diag::Code::kControlBytes, SourceRange{.file = id}, decoded.control_bytes);
+  if (decoded.control_bytes != 0)
+    context.findings.Report(diag::Code::kControlBytes, SourceRange{.file = id}, decoded.control_bytes);
   return {};
 }
 
@@ -56,7 +58,8 @@ Status ReadCalled(Context& context, const ReadSettings& settings, ProgramSet& se
 
 }  // namespace
 
-Result<dialects::Profile> ChooseProfile(Context& context, const Input& first, const ReadSettings& settings, ProfileNeed need) {
+Result<dialects::Profile> ChooseProfile(Context& context, const Input& first, const ReadSettings& settings,
+                                        ProfileNeed need) {
   if (!settings.from.empty()) return dialects::LoadProfile(settings.from, context.files, context.findings);
   if (settings.config != nullptr && settings.config->from) {
     return dialects::LoadProfile(*settings.config->from, context.files, context.findings);
@@ -72,11 +75,13 @@ Result<dialects::Profile> ChooseProfile(Context& context, const Input& first, co
   const std::string name(dialects::UsualProfile(guess));
   std::string reason = guess.reasons.front();
   if (guess.lathe) reason += ", " + guess.lathe_reason;
-  context.findings.Report(diag::Code::kGuessedProfile, SourceRange{}, name, reason).help = "name the machine with --from";
+  context.findings.Report(diag::Code::kGuessedProfile, SourceRange{}, name, reason).help =
+      "name the machine with --from";
   return dialects::LoadProfile(name, context.files, context.findings);
 }
 
-Status ReadSet(Context& context, const std::vector<Input>& inputs, const ReadSettings& settings, ProfileNeed need, ProgramSet& set) {
+Status ReadSet(Context& context, const std::vector<Input>& inputs, const ReadSettings& settings, ProfileNeed need,
+               ProgramSet& set) {
   NCPORT_TRY_ASSIGN(set.profile, ChooseProfile(context, inputs.front(), settings, need));
   Status ok;
   for (const Input& input : inputs) {
@@ -109,7 +114,8 @@ Result<exec::RunOptions> RunOptionsFor(Context& context, const ProgramSet& set, 
     }
   }
   Status ok;
-  for (const std::string& start : settings.set) ok &= ApplySet(start, set.module, ignore_case, options, context.findings);
+  for (const std::string& start : settings.set)
+    ok &= ApplySet(start, set.module, ignore_case, options, context.findings);
   if (!settings.start.empty()) ok &= ApplyStart(settings.start, set.profile, options, context.findings);
   NCPORT_TRY(ok);
   return options;

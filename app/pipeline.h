@@ -13,22 +13,25 @@
 
 namespace ncport::app {
 
-/// What a command asks of `--from`: without it the profile is guessed (check, trace, dump) or refused (translate, flatten).
+/// What a command asks of `--from`: without it the profile is guessed (check, trace, dump) or refused (translate,
+/// flatten).
 enum class ProfileNeed : std::uint8_t { kGuess, kNamed };
 
 /// A complete set of programs in one module.
 struct ProgramSet {
   dialects::Profile profile;
   ir::Module module;
-  std::vector<FileId> inputs;   // of the command, in order
+  std::vector<FileId> inputs;  // of the command, in order
 };
 
 /// Chooses the profile (contracts section 1). Fails after findings.
-Result<dialects::Profile> ChooseProfile(Context& context, const Input& first, const ReadSettings& settings, ProfileNeed need);
+Result<dialects::Profile> ChooseProfile(Context& context, const Input& first, const ReadSettings& settings,
+                                        ProfileNeed need);
 
-/// Reads the inputs, then the called programs that they lack and `settings.find` has, and resolves all names. Fails after
-/// errors, but the set is complete as far as it could be read.
-Status ReadSet(Context& context, const std::vector<Input>& inputs, const ReadSettings& settings, ProfileNeed need, ProgramSet& set);
+/// Reads the inputs, then the called programs that they lack and `settings.find` has, and resolves all names. Fails
+/// after errors, but the set is complete as far as it could be read.
+Status ReadSet(Context& context, const std::vector<Input>& inputs, const ReadSettings& settings, ProfileNeed need,
+               ProgramSet& set);
 
 /// Entry, arguments, start values of a run. Fails after findings.
 Result<exec::RunOptions> RunOptionsFor(Context& context, const ProgramSet& set, const RunSettings& settings);

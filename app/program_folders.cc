@@ -27,7 +27,8 @@ std::string PlainName(std::string_view program) {
   if (slash != std::string_view::npos) program.remove_prefix(slash + 1);
   std::string name = Lower(program);
   if (name.starts_with("_n_")) name.erase(0, 3);
-  if (name.ends_with("_spf") || name.ends_with("_mpf") || name.ends_with(".spf") || name.ends_with(".mpf")) name.resize(name.size() - 4);
+  if (name.ends_with("_spf") || name.ends_with("_mpf") || name.ends_with(".spf") || name.ends_with(".mpf"))
+    name.resize(name.size() - 4);
   return name;
 }
 
@@ -41,7 +42,8 @@ void ProgramFolders::ReadFolders() {
     std::error_code failed;
     for (fs::directory_iterator it(folder, failed), end; !failed && it != end; it.increment(failed)) {
       std::string name = it->path().filename().string();
-      // Two names that differ in case only: the first in the order of characters, so that a run does not depend on the disk.
+      // Two names that differ in case only: the first in the order of characters, so that a run does not depend on the
+      // disk.
       const auto [entry, added] = files.emplace(Lower(name), name);
       if (!added && name < entry->second) entry->second = name;
     }

@@ -1,4 +1,5 @@
-// Called programs in the folders of -I. File names compare without regard to case, as they come from controls that have none.
+// Called programs in the folders of -I. File names compare without regard to case, as they come from controls that have
+// none.
 #pragma once
 
 #include <map>
@@ -15,7 +16,8 @@ class ProgramFolders {
  public:
   explicit ProgramFolders(std::vector<std::string> folders) : folders_(std::move(folders)) {}
 
-  /// The file of this program: in each folder in turn NAME.SPF, then NAME.MPF (sinumerik card, 7.3). Marks around the name
+  /// The file of this program: in each folder in turn NAME.SPF, then NAME.MPF (sinumerik card, 7.3). Marks around the
+  /// name
   /// (`_N_RING_SPF`) and a path before it are left out.
   std::optional<Input> Find(std::string_view program);
   /// A folder that could not be read, or a file that could not be; empty: none.

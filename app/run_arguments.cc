@@ -94,9 +94,11 @@ std::optional<Constant> ConvertTo(Constant constant, ir::Type type) {
     case ir::Type::kAxis:
       if (from != ir::Type::kAxis) return std::nullopt;
       return constant;
-    case ir::Type::kAny: return constant;
+    case ir::Type::kAny:
+      return constant;
     case ir::Type::kNone:
-    case ir::Type::kFrame: return std::nullopt;
+    case ir::Type::kFrame:
+      return std::nullopt;
   }
   return std::nullopt;
 }
@@ -118,7 +120,8 @@ std::vector<std::string_view> SplitArguments(std::string_view text) {
 
 }  // namespace
 
-Status ApplyCall(std::string_view call, const ir::Module& module, bool ignore_case, exec::RunOptions& options, diag::Sink& sink) {
+Status ApplyCall(std::string_view call, const ir::Module& module, bool ignore_case, exec::RunOptions& options,
+                 diag::Sink& sink) {
   const std::string_view whole = Trim(call);
   const std::size_t bracket = whole.find('(');
   const std::string_view name = Trim(whole.substr(0, bracket));
@@ -149,7 +152,9 @@ Status ApplyCall(std::string_view call, const ir::Module& module, bool ignore_ca
     if (!text.empty()) {
       std::optional<Constant> constant = ParseConstant(text);
       if (constant) constant = ConvertTo(*std::move(constant), type);
-      if (!constant) return Fail(sink, "--call", fmt::format("{} is not a constant for argument {} of {}", text, argument.position + 1, name));
+      if (!constant)
+        return Fail(sink, "--call",
+                    fmt::format("{} is not a constant for argument {} of {}", text, argument.position + 1, name));
       argument.value = constant->value;
       argument.text = constant->text;
     }
@@ -158,7 +163,8 @@ Status ApplyCall(std::string_view call, const ir::Module& module, bool ignore_ca
   return {};
 }
 
-Status ApplySet(std::string_view set, const ir::Module& module, bool ignore_case, exec::RunOptions& options, diag::Sink& sink) {
+Status ApplySet(std::string_view set, const ir::Module& module, bool ignore_case, exec::RunOptions& options,
+                diag::Sink& sink) {
   const std::size_t sign = set.find('=');
   if (sign == std::string_view::npos) return Fail(sink, "--set", fmt::format("{} has no =", set));
   const std::string_view name = Trim(set.substr(0, sign));
@@ -169,7 +175,8 @@ Status ApplySet(std::string_view set, const ir::Module& module, bool ignore_case
   for (const ir::VariableId id : module.variables.Ids()) {
     const ir::Variable& variable = module.variables[id];
     if (!Same(module.View(variable.name), name, ignore_case)) continue;
-    const bool visible = variable.owner == options.entry || variable.scope == ir::Scope::kChannel || variable.scope == ir::Scope::kGlobal;
+    const bool visible = variable.owner == options.entry || variable.scope == ir::Scope::kChannel ||
+                         variable.scope == ir::Scope::kGlobal;
     if (!visible || variable.dimension_count != 0) continue;
     start.variable = id;
     type = variable.type;
@@ -183,7 +190,8 @@ Status ApplySet(std::string_view set, const ir::Module& module, bool ignore_case
     for (const char c : number.substr(0, 9)) cell = cell * 10 + static_cast<std::uint32_t>(c - '0');
     for (const ir::SpaceId id : module.spaces.Ids()) {
       const ir::Space& space = module.spaces[id];
-      if (number.empty() || number.size() > 9 || !Same(module.View(space.name), name.substr(0, digits), ignore_case)) continue;
+      if (number.empty() || number.size() > 9 || !Same(module.View(space.name), name.substr(0, digits), ignore_case))
+        continue;
       if (cell < space.first || cell > space.last) continue;
       start.space = id;
       start.cell = cell;
@@ -191,7 +199,8 @@ Status ApplySet(std::string_view set, const ir::Module& module, bool ignore_case
       break;
     }
   }
-  if (!start.variable.Valid() && !start.space.Valid()) return Fail(sink, "--set", fmt::format("there is no variable {}", name));
+  if (!start.variable.Valid() && !start.space.Valid())
+    return Fail(sink, "--set", fmt::format("there is no variable {}", name));
   std::optional<Constant> constant = ParseConstant(text);
   if (constant) constant = ConvertTo(*std::move(constant), type);
   if (!constant) return Fail(sink, "--set", fmt::format("{} is not a value for {}", text, name));
@@ -201,7 +210,8 @@ Status ApplySet(std::string_view set, const ir::Module& module, bool ignore_case
   return {};
 }
 
-Status ApplyStart(std::string_view start, const dialects::Profile& profile, exec::RunOptions& options, diag::Sink& sink) {
+Status ApplyStart(std::string_view start, const dialects::Profile& profile, exec::RunOptions& options,
+                  diag::Sink& sink) {
   constexpr std::string_view kAxes = "XYZABCUVW";
   const bool inch = profile.units.Is(dialects::LengthUnit::kInch);
   const char* p = start.data();

@@ -7,8 +7,8 @@
 
 namespace ncport::backends::iso {
 
-/// Appends `(prefix text)`: round brackets become square ones, letters upper case, other characters (also control characters)
-/// that ASCII lacks `?`, blanks at both ends go. Nothing when both are empty.
+/// Appends `(prefix text)`: round brackets become square ones, letters upper case, other characters (also control
+/// characters) that ASCII lacks `?`, blanks at both ends go. Nothing when both are empty.
 void AppendFlatComment(TextBuffer& out, std::string_view prefix, std::string_view text);
 
 }  // namespace ncport::backends::iso

@@ -21,16 +21,18 @@ double Sweep(double from0, double from1, double to0, double to1, bool clockwise)
 
 double SweepOf(const ExactArc& arc) {
   if (arc.full_circle) return 2 * kPi;
-  return Sweep(arc.from[0] - arc.center[0], arc.from[1] - arc.center[1], arc.to[0] - arc.center[0], arc.to[1] - arc.center[1],
-               arc.clockwise);
+  return Sweep(arc.from[0] - arc.center[0], arc.from[1] - arc.center[1], arc.to[0] - arc.center[0],
+               arc.to[1] - arc.center[1], arc.clockwise);
 }
 
-GridArc FitArc(const ExactArc& arc, const std::int64_t start[2], const std::int64_t end[2], const ArcGrid& grid, double tolerance) {
+GridArc FitArc(const ExactArc& arc, const std::int64_t start[2], const std::int64_t end[2], const ArcGrid& grid,
+               double tolerance) {
   GridArc result;
   const double s[2] = {static_cast<double>(start[0]) * grid.unit[0], static_cast<double>(start[1]) * grid.unit[1]};
   const double e[2] = {static_cast<double>(end[0]) * grid.unit[0], static_cast<double>(end[1]) * grid.unit[1]};
   const double scale = 1 / grid.increment;
-  const std::int64_t nearest[2] = {RoundToIncrements(arc.center[0] - s[0], scale), RoundToIncrements(arc.center[1] - s[1], scale)};
+  const std::int64_t nearest[2] = {RoundToIncrements(arc.center[0] - s[0], scale),
+                                   RoundToIncrements(arc.center[1] - s[1], scale)};
 
   // The nearest centre first; its eight neighbours only when the radii differ by more than an increment.
   double least = INFINITY;
@@ -58,8 +60,8 @@ GridArc FitArc(const ExactArc& arc, const std::int64_t start[2], const std::int6
     // No larger than an increment: a circle without a radius.
     if (result.start_radius == 0) result.kind = GridArc::Kind::kLine;
   } else {
-    // Rounding moves each end by less than an increment. Only where the ends are that near can an arc become a full circle, or
-    // the end come to lie on the other side of the start.
+    // Rounding moves each end by less than an increment. Only where the ends are that near can an arc become a full
+    // circle, or the end come to lie on the other side of the start.
     const double chord = std::hypot(e[0] - s[0], e[1] - s[1]);
     if (chord <= 2 * grid.increment) {
       const double sweep = SweepOf(arc);

@@ -34,10 +34,12 @@ void FlatWriter::PutTemplate(std::string_view form, std::span<const dialects::Te
 /// Writes what the event before has left open, unless `next` completes it.
 void FlatWriter::FlushPending(const exec::Event* next) {
   const bool offset_follows = next != nullptr && next->kind == exec::EventKind::kOffset;
-  const bool limit_follows = next != nullptr && next->kind == exec::EventKind::kSpindleLimit && next->block == pending_block_;
-  if (tool_pending_ && lathe_ && offset_follows) return;      // LatheOffset writes both
-  if (surface_pending_ && limit_follows) return;              // the limit must be in force first
-  const FlatOrigin origin = std::exchange(origin_, FlatOrigin{pending_block_, next == nullptr ? nullptr : next->frames});
+  const bool limit_follows =
+      next != nullptr && next->kind == exec::EventKind::kSpindleLimit && next->block == pending_block_;
+  if (tool_pending_ && lathe_ && offset_follows) return;  // LatheOffset writes both
+  if (surface_pending_ && limit_follows) return;          // the limit must be in force first
+  const FlatOrigin origin =
+      std::exchange(origin_, FlatOrigin{pending_block_, next == nullptr ? nullptr : next->frames});
   if (std::exchange(tool_pending_, false)) {
     const ToolMap::Answer answer = tools_.Tool();
     if (Report(answer)) WriteTool(answer);
@@ -112,7 +114,8 @@ void FlatWriter::Spindle(const exec::Event& event) {
       }
       if (surface_pending_) FlushPending(nullptr);
       return;
-    default: break;
+    default:
+      break;
   }
   const std::uint8_t bit = event.kind == exec::EventKind::kSpindle ? kSense : kSpeed;
   if ((open_words_ & bit) != 0) CloseOpenLine();
@@ -129,9 +132,15 @@ void FlatWriter::Spindle(const exec::Event& event) {
   } else {
     bool senseless = false;
     switch (event.spindle_state) {
-      case ir::SpindleState::kCw: senseless = !PutSense(target_.spindle.cw); break;
-      case ir::SpindleState::kCcw: senseless = !PutSense(target_.spindle.ccw); break;
-      case ir::SpindleState::kStop: senseless = !PutSense(target_.spindle.stop); break;
+      case ir::SpindleState::kCw:
+        senseless = !PutSense(target_.spindle.cw);
+        break;
+      case ir::SpindleState::kCcw:
+        senseless = !PutSense(target_.spindle.ccw);
+        break;
+      case ir::SpindleState::kStop:
+        senseless = !PutSense(target_.spindle.stop);
+        break;
       case ir::SpindleState::kPositioned:
       case ir::SpindleState::kUnknown:
         if (open_before == 0) out_.Truncate(line_begin_);
@@ -151,7 +160,8 @@ void FlatWriter::Spindle(const exec::Event& event) {
 /// Puts the finding of an answer into the sink. False if there are no words.
 bool FlatWriter::Report(const ToolMap::Answer& answer) {
   if (!answer.problem) return true;
-  if (diag::Diagnostic* diagnostic = Refuse(*answer.problem, answer.source, answer.assumed)) diagnostic->help = answer.help;
+  if (diag::Diagnostic* diagnostic = Refuse(*answer.problem, answer.source, answer.assumed))
+    diagnostic->help = answer.help;
   return !answer.Failed();
 }
 
@@ -161,9 +171,11 @@ void FlatWriter::WriteTool(const ToolMap::Answer& answer) {
     // A tool without an offset: the register 00 is none.
     return WriteWords(fmt::format("T{:0>2}00", answer.tool));
   }
-  // The profile's form may hold the word that changes the tool. In the source that is a word of its own, unless T changes at once.
+  // The profile's form may hold the word that changes the tool. In the source that is a word of its own, unless T
+  // changes at once.
   const dialects::TemplateValue values[] = {{"tool", answer.tool}};
-  std::string_view form = target_.words.tool.Known() ? std::string_view(*target_.words.tool) : std::string_view("T{tool} M6");
+  std::string_view form =
+      target_.words.tool.Known() ? std::string_view(*target_.words.tool) : std::string_view("T{tool} M6");
   while (!form.empty()) {
     const std::size_t blank = form.find(' ');
     const std::string_view word = form.substr(0, blank);
@@ -206,7 +218,8 @@ void FlatWriter::LatheOffset(const exec::Event& event) {
   if (answer.offset_in_tool) {
     // A mapped tool word names its own offset; without it only the tool part of the word is known to be right.
     if (with_tool && event.offset == exec::OffsetKind::kNumber) return WriteTool(answer);
-    Refuse(diag::Code::kNotExpressible, event.offset == exec::OffsetKind::kNone ? "a mapped tool without its offset" : what);
+    Refuse(diag::Code::kNotExpressible,
+           event.offset == exec::OffsetKind::kNone ? "a mapped tool without its offset" : what);
     return;
   }
   const std::int64_t offset = event.offset == exec::OffsetKind::kNone ? 0 : event.number;
@@ -220,13 +233,18 @@ void FlatWriter::LatheOffset(const exec::Event& event) {
 
 void FlatWriter::MillOffset(const exec::Event& event) {
   switch (event.offset) {
-    case exec::OffsetKind::kEdge: return EdgeOffset(event.number);
-    case exec::OffsetKind::kLength: return WriteWords(fmt::format("G43 H{}", event.number));
+    case exec::OffsetKind::kEdge:
+      return EdgeOffset(event.number);
+    case exec::OffsetKind::kLength:
+      return WriteWords(fmt::format("G43 H{}", event.number));
     case exec::OffsetKind::kNone:
       radius_register_.reset();
       return WriteWords(target_.words.length_offset_off.Or("G49"));
-    case exec::OffsetKind::kRadius: break;
-    case exec::OffsetKind::kNumber: Refuse(diag::Code::kNotExpressible, fmt::format("offset {}", event.number)); return;
+    case exec::OffsetKind::kRadius:
+      break;
+    case exec::OffsetKind::kNumber:
+      Refuse(diag::Code::kNotExpressible, fmt::format("offset {}", event.number));
+      return;
   }
   radius_register_ = event.number;
   if (comp_ != ir::CutterComp::kOff) WriteWords(fmt::format("D{}", event.number));
@@ -242,7 +260,8 @@ void FlatWriter::EdgeOffset(std::uint32_t edge) {
   }
   WriteWords(fmt::format("G43 H{}", *answer.length));
   const auto before = std::exchange(radius_register_, answer.radius);
-  if (comp_ != ir::CutterComp::kOff && before != radius_register_ && radius_register_) WriteWords(fmt::format("D{}", *radius_register_));
+  if (comp_ != ir::CutterComp::kOff && before != radius_register_ && radius_register_)
+    WriteWords(fmt::format("D{}", *radius_register_));
 }
 
 void FlatWriter::Compensation(const exec::Event& event) {
@@ -268,8 +287,9 @@ void FlatWriter::WorkOffset(const exec::Event& event) {
   }
   if (event.extension == 0 && event.number >= 54 && event.number <= 59) return WriteWords(source);
   if (diag::Diagnostic* diagnostic = Refuse(diag::Code::kUnmappedOffset, source)) {
-    diagnostic->help = fmt::format("add to [offsets] in ncport.toml: \"{}\" = \"G54\", with the offset that stands for it here",
-                                   event.number == 0 ? "G500" : source);
+    diagnostic->help =
+        fmt::format("add to [offsets] in ncport.toml: \"{}\" = \"G54\", with the offset that stands for it here",
+                    event.number == 0 ? "G500" : source);
   }
 }
 
@@ -300,7 +320,9 @@ void FlatWriter::Aux(const exec::Event& event) {
 void FlatWriter::Dwell(const exec::Event& event) {
   const bool turns = event.per_revolution;
   const dialects::Setting<std::string>& form = turns ? target_.words.dwell_revolutions : target_.words.dwell;
-  const std::string_view words = form.Known() ? std::string_view(*form) : turns ? std::string_view{} : std::string_view("G4 P{seconds}");
+  const std::string_view words = form.Known() ? std::string_view(*form)
+                                 : turns      ? std::string_view{}
+                                              : std::string_view("G4 P{seconds}");
   if (words.empty()) {
     Refuse(diag::Code::kNotExpressible, "a dwell in revolutions");
     return;

@@ -18,10 +18,13 @@ struct PlaneAxes {
 };
 PlaneAxes AxesOf(ir::Plane plane) {
   switch (plane) {
-    case ir::Plane::kZX: return {2, 0, 1};
-    case ir::Plane::kYZ: return {1, 2, 0};
+    case ir::Plane::kZX:
+      return {2, 0, 1};
+    case ir::Plane::kYZ:
+      return {1, 2, 0};
     case ir::Plane::kXY:
-    case ir::Plane::kUnknown: break;
+    case ir::Plane::kUnknown:
+      break;
   }
   return {0, 1, 2};
 }
@@ -42,9 +45,10 @@ bool FlatWriter::AxesExist(std::uint16_t axes) {
   const auto missing = static_cast<std::uint16_t>(axes & ~axes_);
   if (missing == 0) return true;
   const int axis = std::countr_zero(missing);
-  const std::string name = axis < ir::kLetterAxes
-                               ? std::string(1, kLetters[axis])
-                               : std::string(module_.View(module_.axis_names[static_cast<std::size_t>(axis - ir::kFirstNamedAxis)]));
+  const std::string name =
+      axis < ir::kLetterAxes
+          ? std::string(1, kLetters[axis])
+          : std::string(module_.View(module_.axis_names[static_cast<std::size_t>(axis - ir::kFirstNamedAxis)]));
   Refuse(diag::Code::kNotExpressible, "axis " + name);
   return false;
 }
@@ -63,11 +67,16 @@ void FlatWriter::AppendMotion(ir::Motion motion) {
   if (motion == motion_) return;
   motion_ = motion;
   switch (motion) {
-    case ir::Motion::kRapid: return Put("G0");
-    case ir::Motion::kLinear: return Put("G1");
-    case ir::Motion::kArcCw: return Put("G2");
-    case ir::Motion::kArcCcw: return Put("G3");
-    default: NCPORT_BUG("flat blocks have no word for motion {}", static_cast<int>(motion));
+    case ir::Motion::kRapid:
+      return Put("G0");
+    case ir::Motion::kLinear:
+      return Put("G1");
+    case ir::Motion::kArcCw:
+      return Put("G2");
+    case ir::Motion::kArcCcw:
+      return Put("G3");
+    default:
+      NCPORT_BUG("flat blocks have no word for motion {}", static_cast<int>(motion));
   }
 }
 
@@ -93,8 +102,11 @@ void FlatWriter::AppendModes(const exec::Event& event, bool feed_move) {
       usual = lathe_ ? "G95" : "";  // the card gives G95 to lathes only
       what = "feed per revolution";
       break;
-    case ir::FeedMode::kInverseTime: form = &words.feed_inverse_time; break;
-    case ir::FeedMode::kUnknown: break;
+    case ir::FeedMode::kInverseTime:
+      form = &words.feed_inverse_time;
+      break;
+    case ir::FeedMode::kUnknown:
+      break;
   }
   const std::string_view word = form == nullptr ? std::string_view{} : form->Known() ? std::string_view(**form) : usual;
   if (word.empty()) {

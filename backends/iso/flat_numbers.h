@@ -1,5 +1,5 @@
-// Coordinates of flat blocks as whole increments of the target: rounded once, exactly, and printed from there, so that what
-// the next arc starts from is what stands in the text.
+// Coordinates of flat blocks as whole increments of the target: rounded once, exactly, and printed from there, so that
+// what the next arc starts from is what stands in the text.
 #pragma once
 
 #include <cmath>
@@ -9,11 +9,12 @@
 
 namespace ncport::backends::iso {
 
-/// Largest magnitude that a flat word may have, in increments: what a double and a reader of eight to twelve digits hold.
+/// Largest magnitude that a flat word may have, in increments: what a double and a reader of eight to twelve digits
+/// hold.
 inline constexpr double kMaxIncrements = 1e12;
 
-/// `value * scale` as a whole number, rounded from the exact product, halves away from zero. |value * scale| must be below
-/// 2^53 (see kMaxIncrements).
+/// `value * scale` as a whole number, rounded from the exact product, halves away from zero. |value * scale| must be
+/// below 2^53 (see kMaxIncrements).
 inline std::int64_t RoundToIncrements(double value, double scale) {
   const double product = value * scale;
   auto whole = static_cast<std::int64_t>(product);

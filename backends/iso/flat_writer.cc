@@ -13,13 +13,14 @@ namespace ncport::backends::iso {
 namespace {
 
 // Bits of marks_.
-constexpr std::uint8_t kStart = 1;     // first block of a program
-constexpr std::uint8_t kWritten = 2;   // its comments are in the output
-constexpr std::uint8_t kRefused = 4;   // has a finding of this writer
-constexpr std::uint8_t kListed = 8;    // has a listed loss
-constexpr std::uint8_t kFresh = 16;    // comments are written next
+constexpr std::uint8_t kStart = 1;    // first block of a program
+constexpr std::uint8_t kWritten = 2;  // its comments are in the output
+constexpr std::uint8_t kRefused = 4;  // has a finding of this writer
+constexpr std::uint8_t kListed = 8;   // has a listed loss
+constexpr std::uint8_t kFresh = 16;   // comments are written next
 
-/// How many blocks an event looks back for comments: keeps jumps across long programs linear. What lies further comes last.
+/// How many blocks an event looks back for comments: keeps jumps across long programs linear. What lies further comes
+/// last.
 constexpr std::uint32_t kNotesWalk = 4096;
 
 constexpr std::size_t kFlushAt = std::size_t{1} << 16U;
@@ -27,12 +28,14 @@ constexpr std::size_t kFlushAt = std::size_t{1} << 16U;
 /// Axis letters of a flat program, in the order of exec's axis numbers.
 constexpr std::string_view kAxisLetters = "XYZABCUVW";
 
-bool IsSpindleWord(exec::EventKind kind) { return kind == exec::EventKind::kSpindle || kind == exec::EventKind::kSpindleSpeed; }
+bool IsSpindleWord(exec::EventKind kind) {
+  return kind == exec::EventKind::kSpindle || kind == exec::EventKind::kSpindleSpeed;
+}
 
 }  // namespace
 
-FlatWriter::FlatWriter(const ir::Module& module, const SourceFiles& files, const dialects::Profile& target, FlatOptions options,
-                       OutputSink& output, diag::Sink& sink)
+FlatWriter::FlatWriter(const ir::Module& module, const SourceFiles& files, const dialects::Profile& target,
+                       FlatOptions options, OutputSink& output, diag::Sink& sink)
     : module_(module),
       files_(files),
       target_(target),
@@ -77,29 +80,50 @@ bool FlatWriter::OnEvent(const exec::Event& event) {
 void FlatWriter::Dispatch(const exec::Event& event) {
   using exec::EventKind;
   switch (event.kind) {
-    case EventKind::kRapid: return Straight(event, ir::Motion::kRapid);
-    case EventKind::kLine: return Straight(event, ir::Motion::kLinear);
-    case EventKind::kArc: return Arc(event);
-    case EventKind::kThread: return Thread(event);
-    case EventKind::kTap: Refuse(diag::Code::kNotExpressible, "rigid tapping"); return;
-    case EventKind::kRapidMachine: Refuse(diag::Code::kNotExpressible, "a move in machine coordinates"); return;
-    case EventKind::kReference: Refuse(diag::Code::kNotExpressible, "a move to a reference point"); return;
-    case EventKind::kProbe: Refuse(diag::Code::kNotExpressible, "a probing move"); return;
-    case EventKind::kDwell: return Dwell(event);
+    case EventKind::kRapid:
+      return Straight(event, ir::Motion::kRapid);
+    case EventKind::kLine:
+      return Straight(event, ir::Motion::kLinear);
+    case EventKind::kArc:
+      return Arc(event);
+    case EventKind::kThread:
+      return Thread(event);
+    case EventKind::kTap:
+      Refuse(diag::Code::kNotExpressible, "rigid tapping");
+      return;
+    case EventKind::kRapidMachine:
+      Refuse(diag::Code::kNotExpressible, "a move in machine coordinates");
+      return;
+    case EventKind::kReference:
+      Refuse(diag::Code::kNotExpressible, "a move to a reference point");
+      return;
+    case EventKind::kProbe:
+      Refuse(diag::Code::kNotExpressible, "a probing move");
+      return;
+    case EventKind::kDwell:
+      return Dwell(event);
     case EventKind::kSpindle:
     case EventKind::kSpindleSpeed:
     case EventKind::kSpindleSurface:
-    case EventKind::kSpindleLimit: return Spindle(event);
-    case EventKind::kSpindlePosition: Refuse(diag::Code::kNotExpressible, "a spindle position"); return;
-    case EventKind::kTool: return ToolCall(event);
-    case EventKind::kOffset: return Offset(event);
-    case EventKind::kComp: return Compensation(event);
-    case EventKind::kWorkOffset: return WorkOffset(event);
+    case EventKind::kSpindleLimit:
+      return Spindle(event);
+    case EventKind::kSpindlePosition:
+      Refuse(diag::Code::kNotExpressible, "a spindle position");
+      return;
+    case EventKind::kTool:
+      return ToolCall(event);
+    case EventKind::kOffset:
+      return Offset(event);
+    case EventKind::kComp:
+      return Compensation(event);
+    case EventKind::kWorkOffset:
+      return WorkOffset(event);
     case EventKind::kPath:
       CommentLine("PATH", event.path == ir::PathMode::kExact ? "EXACT" : "CONTINUOUS");
       Refuse(diag::Code::kListedLoss, event.path == ir::PathMode::kExact ? "exact stop" : "continuous path mode");
       return;
-    case EventKind::kAux: return Aux(event);
+    case EventKind::kAux:
+      return Aux(event);
     case EventKind::kMessage:
       CommentLine("MSG", event.text);
       Refuse(diag::Code::kListedLoss, "the message");
@@ -114,12 +138,14 @@ void FlatWriter::Dispatch(const exec::Event& event) {
       Put(event.kind == EventKind::kStop ? "M0" : "M1");
       return EndLine();
     case EventKind::kAlarm: {
-      const std::string what = event.text.empty() ? std::string(event.code) : fmt::format("{} {}", event.code, event.text);
+      const std::string what =
+          event.text.empty() ? std::string(event.code) : fmt::format("{} {}", event.code, event.text);
       NoteCalls(sink_.Report(diag::Code::kProgramAlarm, Place(), what));
       return;
     }
     case EventKind::kEnd:
-    case EventKind::kSetVariable: return;  // Finish writes the end
+    case EventKind::kSetVariable:
+      return;  // Finish writes the end
   }
 }
 
@@ -135,10 +161,11 @@ void FlatWriter::WriteHeader(const exec::Event& first) {
       EndLine();
     }
   }
-  // All groups that a flat block relies on, whatever the control was left in (iso card row 5). The plane and the kind of feed are
-  // those in force at the first event; a motion that needs others writes them.
+  // All groups that a flat block relies on, whatever the control was left in (iso card row 5). The plane and the kind
+  // of feed are those in force at the first event; a motion that needs others writes them.
   plane_ = first.plane == ir::Plane::kUnknown ? (lathe_ ? ir::Plane::kZX : ir::Plane::kXY) : first.plane;
-  feed_mode_ = lathe_ && first.feed_mode == ir::FeedMode::kPerRevolution ? ir::FeedMode::kPerRevolution : ir::FeedMode::kPerMinute;
+  feed_mode_ = lathe_ && first.feed_mode == ir::FeedMode::kPerRevolution ? ir::FeedMode::kPerRevolution
+                                                                         : ir::FeedMode::kPerMinute;
   BeginLine();
   Put(plane_ == ir::Plane::kXY ? "G17" : plane_ == ir::Plane::kZX ? "G18" : "G19");
   Put(inch_ ? target_.words.inch.Or("G20") : target_.words.mm.Or("G21"));
@@ -223,8 +250,8 @@ bool FlatWriter::Executed(ir::BlockId block) const {
   return block.value < blocks.size() && (blocks[block.value] & 1U) != 0;
 }
 
-// The first event of a block: the comments of what ran in front of it without an event of its own (assignments, comment lines)
-// become comment lines, its own go to the end of the flat block that follows.
+// The first event of a block: the comments of what ran in front of it without an event of its own (assignments, comment
+// lines) become comment lines, its own go to the end of the flat block that follows.
 void FlatWriter::EnterBlock(ir::BlockId block) {
   WriteOpenComments();
   WriteNotesBefore(block);
@@ -271,13 +298,14 @@ void FlatWriter::WriteOpenComments() {
   WriteCommentLinesOf(block);
 }
 
-/// Words without an event that flat blocks cannot say: they become comments and are listed (contracts section 3; words without any
-/// effect on the motion, such as those of acceleration, count with the path mode).
+/// Words without an event that flat blocks cannot say: they become comments and are listed (contracts section 3; words
+/// without any effect on the motion, such as those of acceleration, count with the path mode).
 void FlatWriter::WriteLostWordsOf(ir::BlockId id) {
   const ir::Block& block = module_.blocks[id];
   for (const ir::WordId word_id : block.words) {
     const ir::Word& word = module_.words[word_id];
-    if (word.op != ir::WordOp::kPreprocessStop && word.op != ir::WordOp::kWorkpiece && word.op != ir::WordOp::kInert) continue;
+    if (word.op != ir::WordOp::kPreprocessStop && word.op != ir::WordOp::kWorkpiece && word.op != ir::WordOp::kInert)
+      continue;
     const SourceRange range = module_.RangeOf(block, word);
     const std::string_view text = files_.View(range);
     CommentLine("", text);
@@ -329,7 +357,8 @@ void FlatWriter::WriteLeftoverComments() {
   for (const ir::Program& program : module_.programs.All()) {
     if (program.library) continue;
     bool ran = false;
-    for (const ir::BlockId block : program.blocks) ran = ran || (marks_[block.value] & kWritten) != 0 || (options_.coverage != nullptr && Executed(block));
+    for (const ir::BlockId block : program.blocks)
+      ran = ran || (marks_[block.value] & kWritten) != 0 || (options_.coverage != nullptr && Executed(block));
     if (!ran) continue;
     WriteNotes(program.blocks.begin, program.blocks.begin + program.blocks.count, false);
     for (const ir::BlockId block : program.blocks) {

@@ -1,5 +1,5 @@
-// Events to flat blocks (iso card): literal words only, one motion a block, all values absolute and rounded once. What flat
-// blocks cannot say is a finding with its place, never a guess; the text is worthless then and must not be used.
+// Events to flat blocks (iso card): literal words only, one motion a block, all values absolute and rounded once. What
+// flat blocks cannot say is a finding with its place, never a guess; the text is worthless then and must not be used.
 #pragma once
 
 #include <cstdint>
@@ -41,12 +41,12 @@ class FlatListener {
 };
 
 struct FlatOptions {
-  std::vector<std::string> heading;                // comment lines at the start: source, settings
-  const dialects::Config* config = nullptr;        // maps of tools, offsets, M functions
-  const exec::Coverage* coverage = nullptr;        // of the same run: which blocks ran. Without it all count as run.
+  std::vector<std::string> heading;          // comment lines at the start: source, settings
+  const dialects::Config* config = nullptr;  // maps of tools, offsets, M functions
+  const exec::Coverage* coverage = nullptr;  // of the same run: which blocks ran. Without it all count as run.
   std::uint64_t max_bytes = std::uint64_t{1} << 30U;
-  bool tool_changes_at_t = false;                  // the source changes tools at T, without M6
-  bool only_listener = false;                      // the text goes to the listener alone
+  bool tool_changes_at_t = false;  // the source changes tools at T, without M6
+  bool only_listener = false;      // the text goes to the listener alone
 };
 
 /// Writes the events of one run to `output`. Call Finish behind the run.
@@ -57,8 +57,8 @@ class FlatWriter final : public exec::EventSink {
 
   void SetListener(FlatListener* listener) { listener_ = listener; }
   bool OnEvent(const exec::Event& event) override;
-  /// Writes what is left: comments behind the last event, the program end, the footer. Fails if the output could not be written;
-  /// refusals are in the sink.
+  /// Writes what is left: comments behind the last event, the program end, the footer. Fails if the output could not be
+  /// written; refusals are in the sink.
   Status Finish();
   [[nodiscard]] std::uint64_t Lines() const { return line_; }
 
@@ -130,43 +130,43 @@ class FlatWriter final : public exec::EventSink {
   ToolMap tools_;
 
   TextBuffer out_;
-  std::size_t line_begin_ = 0;   // in out_
-  std::uint64_t line_ = 0;       // lines ended so far
+  std::size_t line_begin_ = 0;  // in out_
+  std::uint64_t line_ = 0;      // lines ended so far
   std::uint32_t number_step_ = 0;
   bool header_written_ = false;
-  bool failed_ = false;          // the output cannot take more
+  bool failed_ = false;  // the output cannot take more
 
   // The block that the present event belongs to.
   FlatOrigin origin_;
-  std::vector<std::uint8_t> marks_;        // per block: kStart, kWalked, kRefused ...
-  ir::BlockId comments_of_;                // comments that wait for the first flat block of this one
+  std::vector<std::uint8_t> marks_;  // per block: kStart, kWalked, kRefused ...
+  ir::BlockId comments_of_;          // comments that wait for the first flat block of this one
   std::vector<ir::CommentId> comments_too_long_;
 
   // What the flat text has put in force. Values in increments.
   static constexpr std::int64_t kNotWritten = INT64_MIN;
-  std::int64_t at_[ir::kMaxAxes];          // last written position
-  double scale_[ir::kMaxAxes];             // increments per mm (inch) or degree; twice that for a diameter
+  std::int64_t at_[ir::kMaxAxes];  // last written position
+  double scale_[ir::kMaxAxes];     // increments per mm (inch) or degree; twice that for a diameter
   int decimals_ = 3;
   double feed_scale_ = 1000;
   bool inch_ = false;
   bool lathe_ = false;
-  std::uint16_t axes_ = 0;                 // that the target has
+  std::uint16_t axes_ = 0;  // that the target has
   ir::Motion motion_ = ir::Motion::kUnknown;
   ir::Plane plane_ = ir::Plane::kUnknown;
   ir::FeedMode feed_mode_ = ir::FeedMode::kUnknown;
   std::int64_t feed_ = kNotWritten;
   ir::CutterComp comp_ = ir::CutterComp::kOff;
-  double circle_tolerance_ = 0.01;         // mm or inch, as written
+  double circle_tolerance_ = 0.01;  // mm or inch, as written
 
   // Words that wait for the next event: a tool call for its offset, surface speed for its limit.
   bool tool_pending_ = false;
   bool surface_pending_ = false;
-  double surface_speed_ = 0;               // m/min
+  double surface_speed_ = 0;  // m/min
   ir::BlockId pending_block_;
-  bool speed_is_rpm_ = false;              // lathe: the text says that S is a speed, not a surface speed
+  bool speed_is_rpm_ = false;  // lathe: the text says that S is a speed, not a surface speed
   std::optional<std::int64_t> radius_register_;
   // Spindle words of one source block share a flat block.
-  std::uint8_t open_words_ = 0;            // bits of the words in the open line; 0 = none open
+  std::uint8_t open_words_ = 0;  // bits of the words in the open line; 0 = none open
 };
 
 }  // namespace ncport::backends::iso

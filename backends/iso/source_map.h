@@ -12,9 +12,9 @@
 
 namespace ncport::backends::iso {
 
-/// JSON lines {"version", "out", "file", "line", "calls", "turns"}: line of the output, place of the source block, the calls that
-/// led to it from the outermost on, and how often the block of each level had been reached in its call. Blocks that the writer
-/// adds (header, end) have no line of theirs.
+/// JSON lines {"version", "out", "file", "line", "calls", "turns"}: line of the output, place of the source block, the
+/// calls that led to it from the outermost on, and how often the block of each level had been reached in its call.
+/// Blocks that the writer adds (header, end) have no line of theirs.
 class SourceMapWriter final : public FlatListener {
  public:
   SourceMapWriter(const ir::Module& module, const SourceFiles& files, OutputSink& output)
@@ -33,7 +33,8 @@ class SourceMapWriter final : public FlatListener {
   TextBuffer buffer_;
 };
 
-/// The source block in the left column, its flat blocks in the right one, as the basic-block window of a control shows them.
+/// The source block in the left column, its flat blocks in the right one, as the basic-block window of a control shows
+/// them.
 class SideBySideWriter final : public FlatListener {
  public:
   SideBySideWriter(const ir::Module& module, const SourceFiles& files, OutputSink& output)
@@ -49,7 +50,7 @@ class SideBySideWriter final : public FlatListener {
   const SourceFiles& files_;
   OutputSink& output_;
   TextBuffer buffer_;
-  ir::BlockId shown_;              // source block that the last line belongs to
+  ir::BlockId shown_;  // source block that the last line belongs to
   std::uint32_t shown_turn_ = 0;
 };
 

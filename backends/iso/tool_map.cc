@@ -10,9 +10,12 @@ void ToolMap::Select(std::uint32_t number, std::string_view name) {
   name_ = name;
 }
 
-std::string ToolMap::Word() const { return name_.empty() ? fmt::format("T{}", number_) : fmt::format("T=\"{}\"", name_); }
+std::string ToolMap::Word() const {
+  return name_.empty() ? fmt::format("T{}", number_) : fmt::format("T=\"{}\"", name_);
+}
 
-// The target side of a [tools] line: T with digits; H, D and M6 on a mill. Anything else is not a tool call of flat blocks.
+// The target side of a [tools] line: T with digits; H, D and M6 on a mill. Anything else is not a tool call of flat
+// blocks.
 ToolMap::Answer ToolMap::Mapped(const dialects::WordMapping& mapping, std::string source) const {
   Answer answer;
   answer.source = std::move(source);
@@ -81,8 +84,8 @@ ToolMap::Answer ToolMap::Edge(std::uint32_t edge) const {
   const bool two_digits_enough = !lathe_ || number_ < 100;
   if (!name_.empty() || edge != 1 || !two_digits_enough) {
     answer.problem = diag::Code::kUnmappedTool;
-    answer.help = fmt::format("add to [tools] in ncport.toml: '{}' = \"{}\", with the registers that hold this edge", words,
-                              lathe_ ? "T0111" : "T1 H11 D11");
+    answer.help = fmt::format("add to [tools] in ncport.toml: '{}' = \"{}\", with the registers that hold this edge",
+                              words, lathe_ ? "T0111" : "T1 H11 D11");
     return answer;
   }
   answer.problem = diag::Code::kAssumedOffset;

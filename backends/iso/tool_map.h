@@ -1,6 +1,6 @@
-// Which words of a flat program select a tool and its offsets. A number of the source stands for itself; a named tool and an edge
-// need a line in [tools] of ncport.toml. One case is taken without it and listed: edge 1 of a numbered tool uses the offset
-// registers with the tool's number.
+// Which words of a flat program select a tool and its offsets. A number of the source stands for itself; a named tool
+// and an edge need a line in [tools] of ncport.toml. One case is taken without it and listed: edge 1 of a numbered tool
+// uses the offset registers with the tool's number.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,8 @@ class ToolMap {
   /// Words of the target. `problem` set: there are none, or they were assumed.
   struct Answer {
     std::optional<diag::Code> problem;
-    std::string source;                  // the words of the source: `T1 D1`
-    std::string assumed;                 // kAssumedOffset: the words that were taken
+    std::string source;   // the words of the source: `T1 D1`
+    std::string assumed;  // kAssumedOffset: the words that were taken
     std::string help;
     std::string tool;                    // digits behind T
     std::optional<std::int64_t> length;  // H register

@@ -11,29 +11,51 @@ using ir::ExprOp;
 std::string_view Printer::OperatorOf(ExprOp op) {
   switch (op) {
     case ExprOp::kPlus:
-    case ExprOp::kAdd: return "+";
+    case ExprOp::kAdd:
+      return "+";
     case ExprOp::kNegate:
-    case ExprOp::kSubtract: return "-";
-    case ExprOp::kNot: return "NOT ";
-    case ExprOp::kBitNot: return "B_NOT ";
-    case ExprOp::kMultiply: return "*";
-    case ExprOp::kDivide: return "/";
-    case ExprOp::kDivideInteger: return " DIV ";
-    case ExprOp::kModulo: return " MOD ";
-    case ExprOp::kBitAnd: return " B_AND ";
-    case ExprOp::kBitXor: return " B_XOR ";
-    case ExprOp::kBitOr: return " B_OR ";
-    case ExprOp::kAnd: return " AND ";
-    case ExprOp::kXor: return " XOR ";
-    case ExprOp::kOr: return " OR ";
-    case ExprOp::kConcat: return "<<";
-    case ExprOp::kEqual: return "==";
-    case ExprOp::kNotEqual: return "<>";
-    case ExprOp::kLess: return "<";
-    case ExprOp::kLessEqual: return "<=";
-    case ExprOp::kGreater: return ">";
-    case ExprOp::kGreaterEqual: return ">=";
-    default: NCPORT_BUG("{} is no operator of SINUMERIK", ir::NameOf(op));
+    case ExprOp::kSubtract:
+      return "-";
+    case ExprOp::kNot:
+      return "NOT ";
+    case ExprOp::kBitNot:
+      return "B_NOT ";
+    case ExprOp::kMultiply:
+      return "*";
+    case ExprOp::kDivide:
+      return "/";
+    case ExprOp::kDivideInteger:
+      return " DIV ";
+    case ExprOp::kModulo:
+      return " MOD ";
+    case ExprOp::kBitAnd:
+      return " B_AND ";
+    case ExprOp::kBitXor:
+      return " B_XOR ";
+    case ExprOp::kBitOr:
+      return " B_OR ";
+    case ExprOp::kAnd:
+      return " AND ";
+    case ExprOp::kXor:
+      return " XOR ";
+    case ExprOp::kOr:
+      return " OR ";
+    case ExprOp::kConcat:
+      return "<<";
+    case ExprOp::kEqual:
+      return "==";
+    case ExprOp::kNotEqual:
+      return "<>";
+    case ExprOp::kLess:
+      return "<";
+    case ExprOp::kLessEqual:
+      return "<=";
+    case ExprOp::kGreater:
+      return ">";
+    case ExprOp::kGreaterEqual:
+      return ">=";
+    default:
+      NCPORT_BUG("{} is no operator of SINUMERIK", ir::NameOf(op));
   }
 }
 
@@ -42,31 +64,44 @@ int Printer::StrengthOf(const ir::Expr& expr) {
     case ExprOp::kPlus:
     case ExprOp::kNegate:
     case ExprOp::kNot:
-    case ExprOp::kBitNot: return kUnary;
+    case ExprOp::kBitNot:
+      return kUnary;
     case ExprOp::kMultiply:
     case ExprOp::kDivide:
     case ExprOp::kDivideInteger:
-    case ExprOp::kModulo: return 2;
+    case ExprOp::kModulo:
+      return 2;
     case ExprOp::kAdd:
-    case ExprOp::kSubtract: return 3;
-    case ExprOp::kBitAnd: return 4;
-    case ExprOp::kBitXor: return 5;
-    case ExprOp::kBitOr: return 6;
-    case ExprOp::kAnd: return 7;
-    case ExprOp::kXor: return 8;
-    case ExprOp::kOr: return 9;
-    case ExprOp::kConcat: return kConcat;
+    case ExprOp::kSubtract:
+      return 3;
+    case ExprOp::kBitAnd:
+      return 4;
+    case ExprOp::kBitXor:
+      return 5;
+    case ExprOp::kBitOr:
+      return 6;
+    case ExprOp::kAnd:
+      return 7;
+    case ExprOp::kXor:
+      return 8;
+    case ExprOp::kOr:
+      return 9;
+    case ExprOp::kConcat:
+      return kConcat;
     case ExprOp::kEqual:
     case ExprOp::kNotEqual:
     case ExprOp::kLess:
     case ExprOp::kLessEqual:
     case ExprOp::kGreater:
-    case ExprOp::kGreaterEqual: return 12;
+    case ExprOp::kGreaterEqual:
+      return 12;
     case ExprOp::kFunction:
       return static_cast<ir::Function>(expr.a) == ir::Function::kToText ? kToText : kPrimary;
     // A negative number reads back as the minus of a number.
-    case ExprOp::kLiteral: return expr.number < 0 ? kUnary : kPrimary;
-    default: return kPrimary;
+    case ExprOp::kLiteral:
+      return expr.number < 0 ? kUnary : kPrimary;
+    default:
+      return kPrimary;
   }
 }
 
@@ -84,10 +119,15 @@ void Printer::Expr(ir::ExprId id, int in) {
 
 void Printer::Operand(const ir::Expr& expr) {
   switch (expr.op) {
-    case ExprOp::kLiteral: return Literal(expr);
-    case ExprOp::kText: return Text(module_.View(StringId{expr.a}));
-    case ExprOp::kAxisName: return AxisName(static_cast<std::uint8_t>(expr.a));
-    case ExprOp::kVariable: out_.Append(module_.View(module_.variables[ir::VariableId{expr.a}].name)); return;
+    case ExprOp::kLiteral:
+      return Literal(expr);
+    case ExprOp::kText:
+      return Text(module_.View(StringId{expr.a}));
+    case ExprOp::kAxisName:
+      return AxisName(static_cast<std::uint8_t>(expr.a));
+    case ExprOp::kVariable:
+      out_.Append(module_.View(module_.variables[ir::VariableId{expr.a}].name));
+      return;
     case ExprOp::kElement:
       out_.Append(module_.View(module_.variables[ir::VariableId{expr.a}].name));
       out_.Append('[');
@@ -96,7 +136,8 @@ void Printer::Operand(const ir::Expr& expr) {
       return;
     case ExprOp::kName:
     case ExprOp::kSystem:
-      out_.Append(expr.op == ExprOp::kName ? module_.View(StringId{expr.a}) : module_.View(module_.systems[ir::SystemId{expr.a}].name));
+      out_.Append(expr.op == ExprOp::kName ? module_.View(StringId{expr.a})
+                                           : module_.View(module_.systems[ir::SystemId{expr.a}].name));
       if (expr.count == 0) return;
       out_.Append('[');
       List(expr.b, expr.count);
@@ -132,7 +173,8 @@ void Printer::Operand(const ir::Expr& expr) {
       out_.Append(')');
       return;
     }
-    default: break;
+    default:
+      break;
   }
   const int strength = StrengthOf(expr);
   if (ir::OperandsOf(expr.op) == ir::Operands::kUnary) {

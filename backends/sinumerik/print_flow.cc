@@ -21,15 +21,18 @@ void Printer::Flow(const ir::Word& word) {
         out_.Append(' ');
       }
       return Jump(word.Extra<ir::JumpId>());
-    case WordOp::kSwitch: return Switch(word);
+    case WordOp::kSwitch:
+      return Switch(word);
     case WordOp::kCall:
-    case WordOp::kWorkpiece: return Call(word.Extra<ir::CallId>());
+    case WordOp::kWorkpiece:
+      return Call(word.Extra<ir::CallId>());
     case WordOp::kModalCall:
       out_.Append("MCALL");
       if (!word.Extra<ir::CallId>().Valid()) return;
       out_.Append(' ');
       return Call(word.Extra<ir::CallId>());
-    case WordOp::kRepeatPart: return RepeatPart(word);
+    case WordOp::kRepeatPart:
+      return RepeatPart(word);
     case WordOp::kReturn:
       if (static_cast<ir::ReturnKind>(word.index) == ir::ReturnKind::kAuxiliary) return Code(word);
       out_.Append("RET");
@@ -38,15 +41,30 @@ void Printer::Flow(const ir::Word& word) {
       Expr(word.value);
       out_.Append(')');
       return;
-    case WordOp::kIf: return with_condition("IF");
-    case WordOp::kElse: out_.Append("ELSE"); return;
-    case WordOp::kEndIf: out_.Append("ENDIF"); return;
-    case WordOp::kWhile: return with_condition("WHILE");
-    case WordOp::kEndWhile: out_.Append("ENDWHILE"); return;
-    case WordOp::kLoop: out_.Append("LOOP"); return;
-    case WordOp::kEndLoop: out_.Append("ENDLOOP"); return;
-    case WordOp::kRepeat: out_.Append("REPEAT"); return;
-    case WordOp::kUntil: return with_condition("UNTIL");
+    case WordOp::kIf:
+      return with_condition("IF");
+    case WordOp::kElse:
+      out_.Append("ELSE");
+      return;
+    case WordOp::kEndIf:
+      out_.Append("ENDIF");
+      return;
+    case WordOp::kWhile:
+      return with_condition("WHILE");
+    case WordOp::kEndWhile:
+      out_.Append("ENDWHILE");
+      return;
+    case WordOp::kLoop:
+      out_.Append("LOOP");
+      return;
+    case WordOp::kEndLoop:
+      out_.Append("ENDLOOP");
+      return;
+    case WordOp::kRepeat:
+      out_.Append("REPEAT");
+      return;
+    case WordOp::kUntil:
+      return with_condition("UNTIL");
     case WordOp::kFor: {
       const ir::For& record = module_.fors[word.Extra<ir::ForId>()];
       NCPORT_CHECK(!record.step.Valid(), "SINUMERIK counts in steps of 1");
@@ -58,8 +76,11 @@ void Printer::Flow(const ir::Word& word) {
       Expr(record.end);
       return;
     }
-    case WordOp::kEndFor: out_.Append("ENDFOR"); return;
-    default: NCPORT_BUG("{} is no flow", ir::NameOf(word.op));
+    case WordOp::kEndFor:
+      out_.Append("ENDFOR");
+      return;
+    default:
+      NCPORT_BUG("{} is no flow", ir::NameOf(word.op));
   }
 }
 
@@ -70,24 +91,35 @@ void Printer::Jump(ir::JumpId id) {
     return;
   }
   switch (jump.search) {
-    case ir::Search::kForward: out_.Append("GOTOF "); break;
-    case ir::Search::kBackward: out_.Append("GOTOB "); break;
-    case ir::Search::kForwardThenBackward: out_.Append(jump.quiet ? "GOTOC " : "GOTO "); break;
-    default: NCPORT_BUG("SINUMERIK has no jump with search {}", static_cast<int>(jump.search));
+    case ir::Search::kForward:
+      out_.Append("GOTOF ");
+      break;
+    case ir::Search::kBackward:
+      out_.Append("GOTOB ");
+      break;
+    case ir::Search::kForwardThenBackward:
+      out_.Append(jump.quiet ? "GOTOC " : "GOTO ");
+      break;
+    default:
+      NCPORT_BUG("SINUMERIK has no jump with search {}", static_cast<int>(jump.search));
   }
   Target(jump.target);
 }
 
 void Printer::Target(const ir::Target& target) {
   switch (target.kind) {
-    case TargetKind::kLabel: out_.Append(module_.View(target.label)); return;
+    case TargetKind::kLabel:
+      out_.Append(module_.View(target.label));
+      return;
     case TargetKind::kNumber:
     case TargetKind::kMainNumber:
       out_.Append(target.kind == TargetKind::kNumber ? 'N' : ':');
       AppendInteger(out_, target.number);
       return;
-    case TargetKind::kExpression: return Expr(target.expr);
-    case TargetKind::kProgramStart: break;
+    case TargetKind::kExpression:
+      return Expr(target.expr);
+    case TargetKind::kProgramStart:
+      break;
   }
   NCPORT_BUG("only a jump goes to the program start");
 }
@@ -113,7 +145,9 @@ void Printer::Switch(const ir::Word& word) {
 void Printer::Call(ir::CallId id) {
   const ir::Call& call = module_.calls[id];
   switch (call.form) {
-    case ir::CallForm::kName: out_.Append(module_.View(call.name)); break;
+    case ir::CallForm::kName:
+      out_.Append(module_.View(call.name));
+      break;
     case ir::CallForm::kText:
       out_.Append("CALL ");
       Expr(call.name_expr);

@@ -15,7 +15,8 @@ using ir::WordOp;
 
 void Printer::Word(const ir::Word& word) {
   switch (word.op) {
-    case WordOp::kAxis: return Axis(word);
+    case WordOp::kAxis:
+      return Axis(word);
     case WordOp::kAxisComputed:
       out_.Append("AX[");
       Expr(word.Extra<ir::ExprId>());
@@ -27,7 +28,8 @@ void Printer::Word(const ir::Word& word) {
       Expr(word.value);
       return;
     case WordOp::kComputedM:
-    case WordOp::kAux: return AuxiliaryM(word);
+    case WordOp::kAux:
+      return AuxiliaryM(word);
     case WordOp::kAssign:
       Expr(word.Extra<ir::ExprId>());
       out_.Append('=');
@@ -58,11 +60,19 @@ void Printer::Word(const ir::Word& word) {
       }
       out_.Append(')');
       return;
-    case WordOp::kPreprocessStop: out_.Append("STOPRE"); return;
-    case WordOp::kHeader: return Header(word);
-    case WordOp::kExtern: return Extern(word.Extra<ir::ExternId>());
-    case WordOp::kFileMark: out_.Append(SpellingOf(word)); return;
-    case WordOp::kVerbatim: out_.Append(module_.View(word.Extra<StringId>())); return;
+    case WordOp::kPreprocessStop:
+      out_.Append("STOPRE");
+      return;
+    case WordOp::kHeader:
+      return Header(word);
+    case WordOp::kExtern:
+      return Extern(word.Extra<ir::ExternId>());
+    case WordOp::kFileMark:
+      out_.Append(SpellingOf(word));
+      return;
+    case WordOp::kVerbatim:
+      out_.Append(module_.View(word.Extra<StringId>()));
+      return;
     case WordOp::kInert:
       // An address with a value, a word, or text that is kept as it was written.
       return word.value.Valid() ? Address(word) : Code(word);
@@ -83,8 +93,10 @@ void Printer::Word(const ir::Word& word) {
     case WordOp::kRepeat:
     case WordOp::kUntil:
     case WordOp::kFor:
-    case WordOp::kEndFor: return Flow(word);
-    default: break;
+    case WordOp::kEndFor:
+      return Flow(word);
+    default:
+      break;
   }
   if (word.value.Valid()) return Address(word);
   Code(word);
@@ -126,7 +138,8 @@ void Printer::AuxiliaryM(const ir::Word& word) {
   out_.Append('M');
   if (word.index != 0) AppendInteger(out_, word.index);
   const ir::Expr& value = module_.exprs[word.value];
-  const bool plain = word.op == WordOp::kAux && value.op == ExprOp::kLiteral && word.index == 0 && word.mode == ValueMode::kModal;
+  const bool plain =
+      word.op == WordOp::kAux && value.op == ExprOp::kLiteral && word.index == 0 && word.mode == ValueMode::kModal;
   if (!plain || (word.flags & ir::Word::kEqualSign) != 0) out_.Append('=');
   Value(word);
 }

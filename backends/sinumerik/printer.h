@@ -41,7 +41,9 @@ class Printer {
   void AuxiliaryM(const ir::Word& word);
   void Value(const ir::Word& word);
   [[nodiscard]] bool NeedsEqualSign(const ir::Word& word, std::string_view name) const;
-  std::string_view SpellingOf(const ir::Word& word) const { return module_.View(module_.spellings[word.spelling].text); }
+  std::string_view SpellingOf(const ir::Word& word) const {
+    return module_.View(module_.spellings[word.spelling].text);
+  }
   void PutNumber(std::uint32_t number, std::uint8_t digits);
 
   // print_flow.cc

@@ -27,7 +27,8 @@ Rounded Fit(const ExactArc& arc, double tolerance = 0.01) {
   return result;
 }
 
-ExactArc ArcOf(double center0, double center1, double radius, double from_degrees, double sweep_degrees, bool clockwise) {
+ExactArc ArcOf(double center0, double center1, double radius, double from_degrees, double sweep_degrees,
+               bool clockwise) {
   const double rad = std::numbers::pi / 180;
   const double to = from_degrees + (clockwise ? -sweep_degrees : sweep_degrees);
   ExactArc arc;
@@ -51,7 +52,8 @@ TEST_CASE("a plain arc keeps its centre") {
 TEST_CASE("the two radii of a written arc agree within two increments, wherever it lies") {
   for (int i = 0; i < 20000; ++i) {
     const double radius = 0.01 + 0.37 * i;
-    const ExactArc exact = ArcOf(17.3 * std::sin(i * 0.7), -11.9 * std::cos(i * 1.3), radius, i * 7.13, 1 + i % 358, i % 2 == 0);
+    const ExactArc exact =
+        ArcOf(17.3 * std::sin(i * 0.7), -11.9 * std::cos(i * 1.3), radius, i * 7.13, 1 + i % 358, i % 2 == 0);
     const Rounded arc = Fit(exact);
     if (arc.fit.kind == GridArc::Kind::kLine) {
       // Only where both ends are next to each other.
@@ -62,7 +64,8 @@ TEST_CASE("the two radii of a written arc agree within two increments, wherever 
     const double i0 = static_cast<double>(arc.fit.center[0]);
     const double j0 = static_cast<double>(arc.fit.center[1]);
     const double start = std::hypot(i0, j0);
-    const double end = std::hypot(static_cast<double>(arc.to[0] - arc.from[0]) - i0, static_cast<double>(arc.to[1] - arc.from[1]) - j0);
+    const double end = std::hypot(static_cast<double>(arc.to[0] - arc.from[0]) - i0,
+                                  static_cast<double>(arc.to[1] - arc.from[1]) - j0);
     REQUIRE(std::fabs(start - end) <= 2.0);
     // The written arc turns as far as the exact one.
     const ExactArc written{{0, 0},

@@ -296,7 +296,8 @@ TEST_CASE("work offsets beyond G59 and none need a mapping; M functions of the b
 
 TEST_CASE("what flat blocks cannot say is refused by name") {
   Bench bench;
-  for (const EventKind kind : {EventKind::kTap, EventKind::kRapidMachine, EventKind::kReference, EventKind::kProbe, EventKind::kSpindlePosition}) {
+  for (const EventKind kind : {EventKind::kTap, EventKind::kRapidMachine, EventKind::kReference, EventKind::kProbe,
+                               EventKind::kSpindlePosition}) {
     bench.Send(bench.Make(kind));
   }
   Event revolutions = bench.Make(EventKind::kDwell);
@@ -432,7 +433,8 @@ TEST_CASE("messages become comments and are listed once a block") {
 TEST_CASE("a listener hears each block with its line and origin") {
   struct Listener : FlatListener {
     void OnFlatBlock(std::uint64_t line, std::string_view text, const FlatOrigin& origin) override {
-      heard += std::to_string(line) + ":" + std::string(text) + "@" + (origin.block.Valid() ? std::to_string(origin.block.value) : "-") + ";";
+      heard += std::to_string(line) + ":" + std::string(text) + "@" +
+               (origin.block.Valid() ? std::to_string(origin.block.value) : "-") + ";";
     }
     std::string heard;
   } listener;

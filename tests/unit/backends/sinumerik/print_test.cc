@@ -53,8 +53,8 @@ std::string DumpOf(const ir::Module& module, bool places) {
   return std::string(out.View());
 }
 
-/// The words of a text: no blanks outside of texts and comments, letters upper case there, no leading zeros of R cells, lists
-/// with SET. What the normal form of the printer is free to choose, and nothing else.
+/// The words of a text: no blanks outside of texts and comments, letters upper case there, no leading zeros of R cells,
+/// lists with SET. What the normal form of the printer is free to choose, and nothing else.
 std::string Words(const std::string& text) {
   std::string words;
   std::size_t line_begin = 0;
@@ -180,7 +180,8 @@ TEST_CASE("normal form of single blocks") {
       {"REPEAT AA BB P3", "REPEAT AA BB P=3"},
       {"REPEATB AA", "REPEATB AA"},
       {"LOOP\nFOR R1=1 TO 10\nENDFOR\nENDLOOP", "LOOP\nFOR R1=1 TO 10\nENDFOR\nENDLOOP"},
-      {"WHILE R1>1\nREPEAT\nIF R1\nELSE\nENDIF\nUNTIL R2\nENDWHILE", "WHILE R1>1\nREPEAT\nIF R1\nELSE\nENDIF\nUNTIL R2\nENDWHILE"},
+      {"WHILE R1>1\nREPEAT\nIF R1\nELSE\nENDIF\nUNTIL R2\nENDWHILE",
+       "WHILE R1>1\nREPEAT\nIF R1\nELSE\nENDIF\nUNTIL R2\nENDWHILE"},
       {"DEF REAL LLI 0 ULI 10 AB=3,CD[2,4]=(1,2,,4)", "DEF REAL LLI 0 ULI 10 AB=3, CD[2,4]=SET(1,2,,4)"},
       {"DEF STRING[32] TEXT1=\"X\"", "DEF STRING[32] TEXT1=\"X\""},
       {"PROC RING(VAR REAL AA[3],INT BB=4) SAVE DISPLOF", "PROC RING(VAR REAL AA[3], INT BB=4) SAVE DISPLOF"},

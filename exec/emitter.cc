@@ -7,6 +7,8 @@ namespace ncport::exec {
 
 Event& Emitter::Begin(EventKind kind) {
   event_.kind = kind;
+  event_.plane = channel_.modal.plane;  // in force; an arc under a frame has its own
+  event_.feed_mode = channel_.modal.feed_mode;
   event_.spindle = 0;
   event_.number = 0;
   event_.extension = 0;

@@ -48,7 +48,7 @@ const char* NameOfKind(std::size_t kind) {
     case TokenKind::kPath:
       return "a path";
     default:
-      return kind == antlr4::Token::EOF ? "the end of the block" : nullptr;
+      return nullptr;
   }
 }
 

@@ -24,8 +24,10 @@ void Printer::Flow(const ir::Word& word) {
     case WordOp::kSwitch:
       return Switch(word);
     case WordOp::kCall:
-    case WordOp::kWorkpiece:
       return Call(word.Extra<ir::CallId>());
+    case WordOp::kWorkpiece:
+      out_.Append("WORKPIECE");
+      return Arguments(module_.calls[word.Extra<ir::CallId>()].args);
     case WordOp::kModalCall:
       out_.Append("MCALL");
       if (!word.Extra<ir::CallId>().Valid()) return;

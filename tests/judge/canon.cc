@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <numbers>
 #include <vector>
 
 namespace ncport::tests {
@@ -164,7 +165,45 @@ struct Step {
   std::string state;  // of spindle and coolant at cuts: "CW 1000 M8"
 };
 
-std::vector<Step> Steps(const Trace& trace) {
+/// Flat blocks have no word for additional turns: they write them as full circles in front of the arc, with the way
+/// across spread evenly over the whole angle. Here the same is done to an arc with turns.
+Trace WithoutTurns(const Trace& trace) {
+  static constexpr std::size_t axes[3][2] = {{0, 1}, {2, 0}, {1, 2}};
+  Trace result;
+  std::array<double, 9> at{};
+  for (const TraceEvent& event : trace.events) {
+    const std::array<double, 9> from = at;
+    if (event.IsMove()) {
+      for (std::size_t i = 0; i < at.size(); ++i) at[i] = event.axes[i].value_or(at[i]);
+    }
+    if (event.turns != 0) {
+      const auto& plane = axes[event.plane == "XY" ? 0 : event.plane == "ZX" ? 1 : 2];
+      const auto angle = [&](const std::array<double, 9>& point) {
+        return std::atan2(point[plane[1]] - event.center[1], point[plane[0]] - event.center[0]) /
+               (2 * std::numbers::pi);
+      };
+      double rest = angle(at) - angle(from);
+      if (event.clockwise) rest = -rest;
+      if (rest <= 1e-9) rest += 1;
+      TraceEvent circle = event;
+      circle.turns = 0;
+      for (int turn = 1; turn <= event.turns; ++turn) {
+        for (std::size_t i = 0; i < at.size(); ++i) {
+          if (!event.axes[i]) continue;
+          circle.axes[i] =
+              i == plane[0] || i == plane[1] ? from[i] : from[i] + (at[i] - from[i]) * turn / (event.turns + rest);
+        }
+        result.events.push_back(circle);
+      }
+    }
+    result.events.push_back(event);
+    result.events.back().turns = 0;
+  }
+  return result;
+}
+
+std::vector<Step> Steps(const Trace& whole) {
+  const Trace trace = WithoutTurns(whole);
   std::vector<Step> steps;
   std::array<double, 9> at{};
   std::string sense = "STOP", speed = "0.0000";

@@ -84,6 +84,13 @@ TEST_CASE("full circles and turns are counted, and a tool change does not stop o
   CHECK(Agree("ARC CCW XY X0 Y0 center (2,0) turns 2 F0\nEND\n",
               "1 N..... ARC_FEED(0.0000, 0.0000, 2.0000, 0.0000, 3, 0.0000, 0.0000, 0.0000, 0.0000)\n2 N..... "
               "PROGRAM_END()\n"));
+  // Two and a quarter turns: 2 mm each.
+  CHECK(Agree("RAPID X1 Y0 Z0\nARC CCW XY X0 Y1 Z-4.5 center (0,0) turns 2 F0\nEND\n",
+              "1 N..... STRAIGHT_TRAVERSE(1.0000, 0.0000, 0.0000, 0.0000, 0.0000, 0.0000)\n"
+              "2 N..... ARC_FEED(1.0000, 0.0000, 0.0000, 0.0000, 1, -2.0000, 0.0000, 0.0000, 0.0000)\n"
+              "3 N..... ARC_FEED(1.0000, 0.0000, 0.0000, 0.0000, 1, -4.0000, 0.0000, 0.0000, 0.0000)\n"
+              "4 N..... ARC_FEED(0.0000, 1.0000, 0.0000, 0.0000, 1, -4.5000, 0.0000, 0.0000, 0.0000)\n"
+              "5 N..... PROGRAM_END()\n"));
   CHECK(Agree("SPINDLE CW\nTOOL 5\nLINE X1 F0\nEND\n",
               "1 N..... START_SPINDLE_CLOCKWISE(0)\n2 N..... STOP_SPINDLE_TURNING(0)\n3 N..... CHANGE_TOOL(5)\n"
               "4 N..... STRAIGHT_FEED(1.0000, 0.0000, 0.0000, 0.0000, 0.0000, 0.0000)\n5 N..... PROGRAM_END()\n"));

@@ -1,25 +1,80 @@
 #include "app/ncport.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "app/comparison.h"
 #include "app/pipeline.h"
+#include "app/translation_header.h"
+#include "backends/translate.h"
+#include "dialects/machine.h"
 
 namespace ncport {
+namespace {
 
-// No target has a writer for whole programs yet: each one is refused by its name.
-Status Translate(Context& context, const std::vector<Input>& inputs, const TranslateOptions& options,
-                 OutputSink& output) {
-  (void)output;
+/// The first difference, at its source block.
+void ReportDifference(Context& context, const app::ProgramSet& set, const prove::Verification& verification,
+                      const std::vector<prove::Input>& inputs) {
+  const prove::Difference& difference = *verification.difference;
+  SourceRange at;
+  if (difference.source_block.Valid() && difference.source_block.value < set.module.blocks.Size()) {
+    at = set.module.RangeOf(set.module.blocks[difference.source_block]);
+  }
+  auto& finding = context.findings.Report(diag::Code::kTraceDiffers, at, difference.what);
+  std::string values;
+  for (std::size_t i = 0; i < inputs.size() && i < verification.difference_set.size(); ++i) {
+    values += fmt::format("{}{}={:g}", i == 0 ? "" : " ", inputs[i].name, verification.difference_set[i]);
+  }
+  finding.notes.push_back({SourceRange{}, fmt::format("with {} ({})", values.empty() ? "no inputs" : values, verification.difference_start)});
+}
+
+void ReportNotCompared(Context& context, const app::ProgramSet& set, const prove::Verification& verification) {
+  auto& finding = context.findings.Report(diag::Code::kNotCompared, SourceRange{}, verification.not_compared);
+  for (const prove::Branch& branch : verification.open_branches) {
+    finding.notes.push_back({set.module.RangeOf(set.module.blocks[branch.block]),
+                             branch.taken ? "this condition never held" : "this condition always held"});
+  }
+  finding.help = "declare what the arguments may be in [ranges] of ncport.toml, or give more sets with --runs";
+}
+
+}  // namespace
+
+Status Translate(Context& context, const std::vector<Input>& inputs, const TranslateOptions& options, TranslateResult& result) {
+  app::ProgramSet set;
+  NCPORT_TRY(app::ReadSet(context, inputs, options, app::ProfileNeed::kNamed, set));
   std::string target_name = options.to;
   if (target_name.empty() && options.config != nullptr) target_name = options.config->to.value_or("");
   if (target_name.empty()) {
     context.findings.Report(diag::Code::kNoProfile, SourceRange{}, "the output").help = "name the target with --to";
     return Failure{};
   }
-  NCPORT_TRY_ASSIGN(const dialects::Profile target,
-                    dialects::LoadProfile(target_name, context.files, context.findings));
-  NCPORT_TRY_ASSIGN(const dialects::Profile source,
-                    app::ChooseProfile(context, inputs.front(), options, app::ProfileNeed::kNamed));
-  context.findings.Report(diag::Code::kNotExpressible, SourceRange{}, "a program of " + source.name, target.name).help =
-      "this version writes flat blocks only: ncport flatten --to iso-mill or iso-lathe";
-  return Failure{};
+  NCPORT_TRY_ASSIGN(const dialects::Profile target, dialects::LoadProfile(target_name, context.files, context.findings));
+  const ir::Machine machine = dialects::MachineFor(set.profile);
+  backends::Translation translation;
+  const backends::TranslateInput input{&set.module, &set.profile, &machine, &target, options.config};
+  if (!backends::Raise(input, translation, context.findings)) return Failure{};
+  std::vector<backends::OutputFile> files = backends::Print(target, translation, {});
+
+  std::optional<prove::Verification> verification;
+  std::vector<prove::Input> varied;
+  if (options.verify) {
+    NCPORT_TRY_ASSIGN(const exec::RunOptions run, app::RunOptionsFor(context, set, options));
+    const app::ComparisonSetup setup{options.runs, options.seed, options.max_blocks};
+    verification = app::CompareTranslation(context, set, machine, run.entry, target, translation, files, options.config, setup, varied);
+    if (verification->difference) ReportDifference(context, set, *verification, varied);
+    if (!verification->difference && !verification->compared) ReportNotCompared(context, set, *verification);
+    result.summary = app::SummaryOf(*verification, varied);
+  }
+  if (context.findings.HasErrors()) return Failure{};
+  const std::vector<backends::ProgramHeader> headers =
+      app::HeadersOf(context, set, target, translation, verification ? &*verification : nullptr, varied);
+  for (backends::OutputFile& file : backends::Print(target, translation, headers)) {
+    result.files.push_back({std::move(file.name), std::move(file.text)});
+  }
+  return {};
 }
 
 }  // namespace ncport

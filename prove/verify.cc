@@ -72,8 +72,17 @@ void Stage::Bind(const InputPlace& place, std::size_t input) {
     return;
   }
   // Expressions stand before the nodes that use them; arguments have none, so their literals may stand at the end.
+  // Only the calls of the entry: those below it compute their arguments from what they were given.
   ir::ExprBuilder make(module_);
-  for (const ir::CallId id : module_.calls.Ids()) {
+  std::vector<ir::CallId> calls;
+  for (const ir::BlockId block : module_.programs[options_.entry].blocks) {
+    for (const ir::WordId word : module_.blocks[block].words) {
+      const ir::WordOp op = module_.words[word].op;
+      const auto call = module_.words[word].Extra<ir::CallId>();
+      if ((op == ir::WordOp::kCall || op == ir::WordOp::kModalCall) && call.Valid()) calls.push_back(call);
+    }
+  }
+  for (const ir::CallId id : calls) {
     ir::Call call = module_.calls[id];
     if (call.program != place.callee) continue;
     const ir::ExprId literal = make.Literal(0);

@@ -1,0 +1,25 @@
+// Sets up the comparison of a program with its translation: reads the output back through the target's frontend, binds the
+// inputs of both sides, runs prove::Verify.
+#pragma once
+
+#include <vector>
+
+#include "app/pipeline.h"
+#include "backends/translate.h"
+#include "prove/verify.h"
+
+namespace ncport::app {
+
+struct ComparisonSetup {
+  std::uint32_t runs = 200;
+  std::uint64_t seed = 1;
+  std::uint64_t max_blocks = 10'000'000;
+};
+
+/// Findings of reading the output back are bugs of the writer and are reported as such (NC7002).
+prove::Verification CompareTranslation(Context& context, const ProgramSet& source, const ir::Machine& source_machine,
+                                       ir::ProgramId entry, const dialects::Profile& target,
+                                       const backends::Translation& translation, const std::vector<backends::OutputFile>& files,
+                                       const dialects::Config* config, const ComparisonSetup& setup, std::vector<prove::Input>& inputs);
+
+}  // namespace ncport::app

@@ -1,0 +1,30 @@
+#include "backends/translate.h"
+
+#include "backends/fanuc/raise.h"
+#include "backends/fanuc/write.h"
+#include "base/result.h"
+
+namespace ncport::backends {
+
+bool Raise(const TranslateInput& input, Translation& translation, diag::Sink& sink) {
+  switch (input.to->language) {
+    case dialects::Language::kFanuc:
+      return fanuc::Raise({input.source, input.source_machine, input.to, input.config}, translation, sink);
+    default:
+      break;
+  }
+  sink.Report(diag::Code::kNotExpressible, SourceRange{}, "a program with loops, calls and variables", input.to->name).help =
+      "ncport flatten writes programs of literal blocks";
+  return false;
+}
+
+std::vector<OutputFile> Print(const dialects::Profile& to, const Translation& translation, const std::vector<ProgramHeader>& headers) {
+  switch (to.language) {
+    case dialects::Language::kFanuc:
+      return fanuc::Write(to, translation, headers);
+    default:
+      NCPORT_BUG("a module for {} reached the printers", to.name);
+  }
+}
+
+}  // namespace ncport::backends

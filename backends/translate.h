@@ -1,0 +1,42 @@
+// The writers of all languages: a module becomes one that the target can say, and text.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "backends/common/translation.h"
+#include "base/diag/sink.h"
+#include "dialects/config.h"
+#include "dialects/profile.h"
+#include "ir/machine.h"
+
+namespace ncport::backends {
+
+struct TranslateInput {
+  const ir::Module* source = nullptr;            // names resolved
+  const dialects::Profile* from = nullptr;
+  const ir::Machine* source_machine = nullptr;   // MachineFor(*from)
+  const dialects::Profile* to = nullptr;
+  const dialects::Config* config = nullptr;      // may be null
+};
+
+/// Comment lines that stand behind the title of a program.
+struct ProgramHeader {
+  ir::ProgramId program;
+  std::vector<std::string> lines;
+};
+
+/// A file to write.
+struct OutputFile {
+  std::string name;                         // "4001.EIA"; empty: the text has one file only, named by the user
+  std::string text;
+  std::vector<std::uint32_t> added_lines;   // 1-based, ascending
+  std::vector<ir::BlockId> line_blocks;     // block of Translation::module a line shows; by line - 1, may be invalid
+};
+
+/// Rewrites the module for the target. Fails after findings: each place that has no form is one.
+bool Raise(const TranslateInput& input, Translation& translation, diag::Sink& sink);
+/// The raised module as text, with comment lines at the head of its programs.
+std::vector<OutputFile> Print(const dialects::Profile& to, const Translation& translation, const std::vector<ProgramHeader>& headers);
+
+}  // namespace ncport::backends

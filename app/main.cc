@@ -1,6 +1,7 @@
 // The command line: options, files, exit codes. What the commands do is in the library (app/ncport.h).
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -267,26 +268,51 @@ int RunDump(const DumpArguments& arguments) {
   return session.End(ok);
 }
 
-struct TranslateArguments : Common {
+struct TranslateArguments : Common, Running {
   std::string to, output = "-";
+  bool verify = false;
+  std::uint32_t runs = 200;
+  std::uint64_t seed = 1;
 };
+
+bool IsFolder(const std::string& path) {
+  struct stat info {};
+  return ::stat(path.c_str(), &info) == 0 && S_ISDIR(info.st_mode);
+}
 
 int RunTranslate(const TranslateArguments& arguments) {
   Session session(arguments);
   if (!session.Read()) return kUsage;
   TranslateOptions options;
-  session.Fill(options);
+  session.Fill(options, arguments);
   options.to = arguments.to;
-  OutputFile file(arguments.output);
-  if (!file.Open().Ok()) {
-    Say(file.Error());
+  options.verify = arguments.verify;
+  options.runs = arguments.runs;
+  options.seed = arguments.seed;
+  TranslateResult result;
+  const Status ok = Translate(session.context, session.Inputs(), options, result);
+  const int code = session.End(ok);
+  if (!result.summary.empty() && !arguments.quiet) fmt::print(stderr, "{}", result.summary);
+  if (code != kDone) return code;
+  const bool folder = IsFolder(arguments.output);
+  const bool named = result.files.size() > 1 || !result.files.front().name.empty();
+  if (named && !folder) {
+    Say("on this machine the file name is the program: -o must name a folder");
     return kUsage;
   }
-  const Status ok = Translate(session.context, session.Inputs(), options, file.Text());
-  const int code = session.End(ok);
-  if (code != kDone) return code;
-  if (file.Commit().Ok()) return code;
-  Say(file.Error());
+  std::vector<std::unique_ptr<OutputFile>> files;
+  for (const TranslatedFile& made : result.files) {
+    std::string path = arguments.output;
+    if (folder) path += "/" + (made.name.empty() ? std::string("output.nc") : made.name);
+    OutputFile& file = *files.emplace_back(std::make_unique<OutputFile>(path));
+    if (!file.Open().Ok() || !file.Text().Write(made.text).Ok()) {
+      Say(file.Error().empty() ? path + " could not be written" : file.Error());
+      return kUsage;
+    }
+  }
+  std::string error;
+  if (CommitAll(files, error).Ok()) return code;
+  Say(error);
   return kUsage;
 }
 
@@ -330,7 +356,11 @@ int Main(int argc, char** argv) {
   TranslateArguments translate;
   CLI::App* command = app.add_subcommand("translate", "writes programs for another control");
   AddCommon(*command, translate);
+  AddRunning(*command, translate);
   command->add_option("--to", translate.to, "profile of the target");
+  command->add_flag("--verify", translate.verify, "run both programs over parameter sets and compare what the machine does");
+  command->add_option("--runs", translate.runs, "parameter sets to compare");
+  command->add_option("--seed", translate.seed, "seed of the parameter sets");
   command->add_option("-o", translate.output, "file or folder to write")->type_name("FILE|DIR");
   command->callback([&] { code = RunTranslate(translate); });
 

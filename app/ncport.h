@@ -68,8 +68,21 @@ struct FlattenOptions : RunSettings {
   std::uint64_t max_bytes = std::uint64_t{1} << 30U;
 };
 
-struct TranslateOptions : ReadSettings {
-  std::string to;  // profile of the output; empty: from `config`
+struct TranslateOptions : RunSettings {
+  std::string to;            // profile of the output; empty: from `config`
+  bool verify = false;       // run both programs and compare; a difference is an error
+  std::uint32_t runs = 200;  // parameter sets that count
+  std::uint64_t seed = 1;    // of the sets
+};
+
+/// A file of the output.
+struct TranslatedFile {
+  std::string name;  // empty: the only file, named by the user
+  std::string text;
+};
+struct TranslateResult {
+  std::vector<TranslatedFile> files;
+  std::string summary;  // of the comparison, for reading; empty without `verify`
 };
 
 struct CheckOptions : ReadSettings {
@@ -89,7 +102,7 @@ Status Flatten(Context& context, const std::vector<Input>& inputs, const Flatten
 
 /// Writes the programs in the language of the target, loops and variables kept. Fails after errors.
 Status Translate(Context& context, const std::vector<Input>& inputs, const TranslateOptions& options,
-                 OutputSink& output);
+                 TranslateResult& result);
 
 /// Reads and checks all programs. Fails when an error was found. Findings that a comment `ncport: ignore NCxxxx` or the
 /// options silence are not in the context.

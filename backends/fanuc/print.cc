@@ -71,7 +71,8 @@ class Printer {
 };
 
 void Printer::PrintComment(const ir::Comment& comment) {
-  const std::string_view text = module_.View(comment.text);
+  std::string_view text = module_.View(comment.text);
+  if (text.starts_with(' ')) text.remove_prefix(1);
   if (text.empty()) return;
   Blank();
   out_.Append('(');

@@ -12,6 +12,12 @@ constexpr Direction kDirections[] = {
      .mill = "sinumerik-840d-mill",
      .lathe = "sinumerik-840d-lathe",
      .check = CheckIr},
+    {.name = "sinumerik",
+     .title = "SINUMERIK text: printed, read back, run",
+     .flavour = Flavour::kSinumerik,
+     .mill = "sinumerik-840d-mill",
+     .lathe = "sinumerik-840d-lathe",
+     .check = CheckSinumerikText},
 };
 
 }  // namespace

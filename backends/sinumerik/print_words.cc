@@ -156,7 +156,8 @@ void Printer::Address(const ir::Word& word) {
   std::string_view name = SpellingOf(word);
   bool numbered = false;
   if (word.spelling == 0) {
-    // G4 turns F and S of its block into the dwell.
+    // G4 turns F and S of its block into the dwell. Blocks that were read hold it as a word of its own.
+    if (word.op == WordOp::kDwellSeconds || word.op == WordOp::kDwellRevolutions) out_.Append("G4 ");
     const WordOp op = word.op == WordOp::kDwellSeconds       ? WordOp::kFeed
                       : word.op == WordOp::kDwellRevolutions ? WordOp::kSpeed
                                                              : word.op;

@@ -233,5 +233,16 @@ TEST_CASE("made-up expressions get the brackets that their meaning needs") {
   CHECK(text(e.Literal(5, ir::Type::kInt)) == "5");
 }
 
+TEST_CASE("a dwell that no SINUMERIK text wrote gets its G4") {
+  ir::Module module;
+  const FileId file = ir::AddFile(module, "d.mpf");
+  ir::ExprBuilder e(module);
+  ir::ProgramBuilder program(module, "D", ir::ProgramKind::kMain, file);
+  program.Block(1).Add(ir::WordOp::kDwellSeconds, e.Number("2.5")).Finish();
+  program.Block(2).Add(ir::WordOp::kDwellRevolutions, e.Number("3")).Finish();
+  program.Finish();
+  CHECK(Print(module, file) == "G4 F2.5\nG4 S3\n");
+}
+
 }  // namespace
 }  // namespace ncport::backends::sinumerik

@@ -74,7 +74,8 @@ Finding CheckSinumerikText(const Subject& subject, const Direction& /*direction*
     Run second;
     RunProgram(other, skips.sets[i], second);
     if (first.text != second.text || first.outcome != second.outcome) {
-      return {Verdict::kFails, "trace", FirstDifference(first.text, second.text) + second.findings, Listing(texts)};
+      return {Verdict::kFails, "trace, " + KindOfDifference(first.text, second.text),
+              FirstDifference(first.text, second.text) + second.findings, Listing(texts)};
     }
   }
   return {};

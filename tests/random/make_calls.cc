@@ -29,7 +29,7 @@ void Maker::MakeFormals(Subprogram& sub) {
     Formal formal;
     formal.by_reference =
         kind.range != Range::kAxis && kind.range != Range::kText && Draw(Feature::kReferenceParameter);
-    formal.place.variable = program_->Parameter(fmt::format("P{}_ARG", i + 1), kind.type, formal.by_reference);
+    formal.place.variable = program_->Parameter(fmt::format("ARG_{}", i + 1), kind.type, formal.by_reference);
     formal.place.type = kind.type;
     formal.place.range = kind.range;
     if (kind.type == Type::kString) module_.variables[formal.place.variable].string_length = 120;

@@ -270,7 +270,7 @@ void Maker::WriteStart() {
 }
 
 void Maker::MakeMain() {
-  ir::ProgramBuilder program(module_, IsSinumerik() ? "MAINPROG" : "1000", ir::ProgramKind::kMain,
+  ir::ProgramBuilder program(module_, IsSinumerik() ? "mainprog" : "1000", ir::ProgramKind::kMain,
                              ir::AddFile(module_, IsSinumerik() ? "mainprog.mpf" : "1000.nc"));
   program_ = &program;
   in_main_ = true;

@@ -390,7 +390,8 @@ ExprId Maker::ValueFor(Range range, Type type, int depth) {
   }
   if (range == Range::kTruth) {
     if (type == Type::kBool || random_.Percent(40)) {
-      const ExprId truth = Truth(depth);
+      // A number becomes true or false only where a truth is wanted.
+      const ExprId truth = type == Type::kBool || !IsSinumerik() ? Truth(depth) : Comparison(depth);
       const Type from = module_.exprs[truth].type;
       return from == type || !IsSinumerik() ? truth : expr_.Convert(truth, type);
     }

@@ -75,20 +75,35 @@ SkipSets SkipSetsOf(const ir::Module& module) {
   return sets;
 }
 
-std::string FirstDifference(std::string_view a, std::string_view b) {
-  std::size_t line = 1;
-  while (!a.empty() || !b.empty()) {
-    const std::string_view left = a.substr(0, a.find('\n'));
-    const std::string_view right = b.substr(0, b.find('\n'));
-    if (left != right) {
-      return fmt::format("line {}:\n  {}\n  {}\n", line, a.empty() ? "(nothing)" : left,
-                         b.empty() ? "(nothing)" : right);
-    }
-    a.remove_prefix(std::min(a.size(), left.size() + 1));
-    b.remove_prefix(std::min(b.size(), right.size() + 1));
-    ++line;
+namespace {
+
+struct LinePair {
+  std::size_t number = 0;  // 0: no difference
+  std::string_view a, b;
+};
+
+LinePair FirstDifferentLines(std::string_view a, std::string_view b) {
+  for (std::size_t line = 1; !a.empty() || !b.empty(); ++line) {
+    const LinePair pair{line, a.substr(0, a.find('\n')), b.substr(0, b.find('\n'))};
+    if (pair.a != pair.b) return pair;
+    a.remove_prefix(std::min(a.size(), pair.a.size() + 1));
+    b.remove_prefix(std::min(b.size(), pair.b.size() + 1));
   }
-  return "no difference";
+  return {};
+}
+
+std::string_view FirstWord(std::string_view line) { return line.substr(0, line.find(' ')); }
+
+}  // namespace
+
+std::string FirstDifference(std::string_view a, std::string_view b) {
+  const LinePair pair = FirstDifferentLines(a, b);
+  return pair.number == 0 ? "no difference" : fmt::format("line {}:\n  {}\n  {}\n", pair.number, pair.a, pair.b);
+}
+
+std::string KindOfDifference(std::string_view a, std::string_view b) {
+  const LinePair pair = FirstDifferentLines(a, b);
+  return fmt::format("{}/{}", FirstWord(pair.a), FirstWord(pair.b));
 }
 
 }  // namespace ncport::tests::random

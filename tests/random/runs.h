@@ -33,6 +33,9 @@ SkipSets SkipSetsOf(const ir::Module& module);
 /// First line in which two texts differ, both with their numbers.
 std::string FirstDifference(std::string_view a, std::string_view b);
 
+/// First words of the lines in which two texts differ first: what kind of event it is.
+std::string KindOfDifference(std::string_view a, std::string_view b);
+
 /// The number of the first error, empty if there is none.
 std::string FirstError(const diag::Sink& sink);
 

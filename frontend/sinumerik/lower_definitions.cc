@@ -130,6 +130,9 @@ bool Lowering::EndProgramHeader(const Action& action) {
 bool Lowering::AddMacro(const Action& action) {
   const Token& name = At(action.first);
   const auto last = static_cast<std::uint16_t>(tokens_.size() - 1);
+  // The parser takes the end of the line for the text where none stands.
+  if (action.last > last)
+    return Fail(Code::kMissingValue, At(last), "write the text that the name stands for behind AS");
   const std::string_view text = TextOf(At(action.last).offset, At(last).End());
   if (!state_.macros.Add(TextOf(name), text)) return Fail(Code::kDoubleName, name);
   NeedsDefinitionSection(name);

@@ -248,6 +248,39 @@ bool SameFeed(const std::string& a, const std::string& b) {
   return Near(x, y) && std::string_view(a_end) == std::string_view(b_end);
 }
 
+/// An arc of several turns is written as that many full circles and the rest (flat blocks have no word for turns).
+/// Joins them behind `first` when sense, plane and centre are the same, each piece but the last is a full circle, and
+/// the third axis runs evenly over the whole angle. `turns`: how many full circles. False: these steps are not such an
+/// arc.
+bool JoinTurns(std::vector<Step>& steps, std::size_t first, int turns, const std::array<double, 9>& from) {
+  if (first + static_cast<std::size_t>(turns) >= steps.size()) return false;
+  const TraceEvent& head = steps[first].event;
+  const std::size_t a = head.plane == "XY" ? 0 : head.plane == "ZX" ? 2 : 1;
+  const std::size_t b = (a + 1) % 3, normal = (a + 2) % 3;
+  Step& last = steps[first + static_cast<std::size_t>(turns)];
+  const auto angle_of = [&](const std::array<double, 9>& at) {
+    return std::atan2(at[b] - head.center[1], at[a] - head.center[0]);
+  };
+  constexpr double kTurn = 6.283185307179586;
+  double rest = (angle_of(last.at) - angle_of(from)) * (head.clockwise ? -1 : 1);
+  while (rest <= 1e-9) rest += kTurn;
+  const double slope = (last.at[normal] - from[normal]) / (kTurn * turns + rest);
+  for (int i = 0; i <= turns; ++i) {
+    const Step& piece = steps[first + static_cast<std::size_t>(i)];
+    const TraceEvent& event = piece.event;
+    if (piece.kind != "ARC" || event.turns != 0 || event.clockwise != head.clockwise || event.plane != head.plane)
+      return false;
+    if (!Near(event.center[0], head.center[0]) || !Near(event.center[1], head.center[1])) return false;
+    if (i == turns) break;
+    if (!Near(piece.at[a], from[a]) || !Near(piece.at[b], from[b])) return false;
+    if (!Near(piece.at[normal], from[normal] + slope * kTurn * (i + 1))) return false;
+  }
+  last.event.turns = turns;
+  steps.erase(steps.begin() + static_cast<std::ptrdiff_t>(first),
+              steps.begin() + static_cast<std::ptrdiff_t>(first) + turns);
+  return true;
+}
+
 bool Same(const Step& ours, const Step& judge) {
   if (ours.kind != judge.kind) return false;
   for (std::size_t i = 0; i < ours.at.size(); ++i) {
@@ -314,8 +347,12 @@ std::string ReasonNotToAsk(const Trace& trace) {
 }
 
 std::optional<std::string> CompareWithCanon(const Trace& trace, const Trace& canon) {
-  const std::vector<Step> ours = Steps(trace), judge = Steps(canon);
+  const std::vector<Step> ours = Steps(trace);
+  std::vector<Step> judge = Steps(canon);
   for (std::size_t i = 0; i < std::max(ours.size(), judge.size()); ++i) {
+    if (i < ours.size() && ours[i].event.turns > 0 && i < judge.size() && judge[i].event.turns == 0) {
+      JoinTurns(judge, i, ours[i].event.turns, i == 0 ? std::array<double, 9>{} : ours[i - 1].at);
+    }
     if (i < ours.size() && i < judge.size() && Same(ours[i], judge[i])) continue;
     std::string text = "step " + std::to_string(i + 1);
     text += "\n  ncport: " +

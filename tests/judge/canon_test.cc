@@ -100,6 +100,24 @@ TEST_CASE("full circles and turns are counted, and a tool change does not stop o
             "4 N..... STRAIGHT_FEED(1.0000, 0.0000, 0.0000, 0.0000, 0.0000, 0.0000)\n5 N..... PROGRAM_END()\n"));
 }
 
+TEST_CASE("full circles and a rest are one arc of several turns, if the third axis runs evenly") {
+  const std::string_view trace = "ARC CCW XY X0 Y10 Z-6 center (0,0) turns 2 F100\n";
+  const auto canon = [](std::string_view middle) {
+    return "1 N..... SET_FEED_RATE(100.0000)\n2 N..... STRAIGHT_TRAVERSE(10.0000, 0.0000, 0.0000, 0.0000, 0.0000, "
+           "0.0000)\n"
+           "3 N..... ARC_FEED(10.0000, 0.0000, 0.0000, 0.0000, 1, -2.6667, 0.0000, 0.0000, 0.0000)\n" +
+           std::string(middle) +
+           "5 N..... ARC_FEED(0.0000, 10.0000, 0.0000, 0.0000, 1, -6.0000, 0.0000, 0.0000, 0.0000)\n";
+  };
+  const std::string ours = "RAPID X10 Y0 Z0\n" + std::string(trace);
+  CHECK(Agree(ours, canon("4 N..... ARC_FEED(10.0000, 0.0000, 0.0000, 0.0000, 1, -5.3333, 0.0000, 0.0000, 0.0000)\n")));
+  CHECK_FALSE(
+      Agree(ours, canon("4 N..... ARC_FEED(10.0000, 0.0000, 0.0000, 0.0000, 1, -5.0000, 0.0000, 0.0000, 0.0000)\n")));
+  CHECK_FALSE(
+      Agree(ours, canon("4 N..... ARC_FEED(10.0000, 0.0000, 0.0000, 0.0000, -1, -5.3333, 0.0000, 0.0000, 0.0000)\n")));
+  CHECK_FALSE(Agree(ours, canon("")));
+}
+
 TEST_CASE("a call that is not known is an error, and so are inches") {
   CHECK_FALSE(ParseCanon("1 N..... RIGID_TAP(0, 1, 2)\n").error.empty());
   CHECK_FALSE(ParseCanon("1 N..... USE_LENGTH_UNITS(CANON_UNITS_INCHES)\n").error.empty());

@@ -36,6 +36,7 @@ struct BlockWork {
     kRoundModal = 1U << 21U,
     kSpeedLimit = 1U << 22U,
     kEdge = 1U << 23U,
+    kFeedMode = 1U << 24U,
   };
 
   std::uint32_t has = 0;

@@ -18,7 +18,7 @@ Event& Emitter::Begin(EventKind kind) {
   event_.code = {};
   event_.block = session_.block;
   event_.frames = frames_;
-  event_.added = (session_.module.blocks[session_.block].flags & ir::Block::kAdded) != 0;
+  event_.added = session_.block.Valid() && (session_.module.blocks[session_.block].flags & ir::Block::kAdded) != 0;
   return event_;
 }
 

@@ -30,7 +30,7 @@ Evaluator::Evaluator(Session& session, Memory& memory, Texts& texts, const Chann
 Value Evaluator::Eval(ExprId id) {
   const Expr& expr = module_.exprs[id];
   switch (expr.op) {
-    case ExprOp::kLiteral: return EvalLiteral(expr);
+    case ExprOp::kLiteral: return LiteralOf(expr);
     case ExprOp::kText: {
       StringId text;
       text.value = expr.a;
@@ -41,7 +41,7 @@ Value Evaluator::Eval(ExprId id) {
     case ExprOp::kVariable:
     case ExprOp::kElement:
     case ExprOp::kCell:
-    case ExprOp::kCellAt: return Load(PlaceOf(id));
+    case ExprOp::kCellAt: return EvalStored(id, expr);
     case ExprOp::kSystem: return EvalSystem(expr);
     case ExprOp::kName:
       session_.Refuse(diag::Code::kUnknownName, module_.View(StringId{std::size_t{expr.a}}));
@@ -51,7 +51,7 @@ Value Evaluator::Eval(ExprId id) {
     case ExprOp::kPlus:
     case ExprOp::kNegate:
     case ExprOp::kNot:
-    case ExprOp::kBitNot: return EvalUnary(id, expr);
+    case ExprOp::kBitNot: return EvalUnary(expr);
     case ExprOp::kAdd:
     case ExprOp::kSubtract:
     case ExprOp::kMultiply:
@@ -81,13 +81,25 @@ Value Evaluator::Eval(ExprId id) {
   NCPORT_BUG("expression {} has no operation", id.value);
 }
 
-Value Evaluator::EvalLiteral(const Expr& expr) const {
-  switch (expr.type) {
-    case Type::kInt:
-    case Type::kBool:
-    case Type::kChar: return {expr.type, 0, expr.number};
-    default: return Value::Real(expr.number);
+/// Cells and scalars that hold a value are read at once; all else goes by its place.
+Value Evaluator::EvalStored(ExprId id, const Expr& expr) {
+  if (expr.op == ExprOp::kCell) {
+    const SpaceSlot& slot = session_.linked.SlotOf(ir::SpaceId{std::size_t{expr.a}});
+    const ir::Space& space = module_.spaces[ir::SpaceId{std::size_t{expr.a}}];
+    if (!slot.per_level && expr.b >= space.first && expr.b <= space.last) {
+      const Value& value = memory_[slot.offset + expr.b - space.first];
+      if (!value.IsVacant()) return value;
+    }
+  } else if (expr.op == ExprOp::kVariable) {
+    const ir::VariableId variable{std::size_t{expr.a}};
+    const VariableSlot& slot = session_.linked.SlotOf(variable);
+    const ir::Variable& record = module_.variables[variable];
+    if (slot.in_frame && record.owner == facts_.program && !record.by_reference) {
+      const Value& value = memory_[facts_.frame + slot.offset];
+      if (!value.IsVacant()) return value;
+    }
   }
+  return Load(PlaceOf(id));
 }
 
 bool Evaluator::ToTruth(const Value& value) const {
@@ -125,7 +137,7 @@ Value Evaluator::Finished(ops::Number number, const Expr& expr, bool integer) {
   return Value::Real(number.value);
 }
 
-Value Evaluator::EvalUnary(ExprId /*id*/, const Expr& expr) {
+Value Evaluator::EvalUnary(const Expr& expr) {
   const Value value = Eval(ExprId{std::size_t{expr.a}});
   switch (expr.op) {
     case ExprOp::kConvert:

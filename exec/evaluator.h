@@ -58,6 +58,11 @@ class Evaluator {
   Place PlaceOf(ir::ExprId id);
   /// The first element of a variable, by its definition.
   Place VariablePlace(ir::VariableId id);
+  /// A number as it is written.
+  static Value LiteralOf(const ir::Expr& expr) {
+    const bool typed = expr.type == ir::Type::kInt || expr.type == ir::Type::kBool || expr.type == ir::Type::kChar;
+    return {typed ? expr.type : ir::Type::kReal, 0, expr.number};
+  }
   /// The value at a place.
   Value Load(const Place& place);
   /// Element `offset` behind the one that the place names.
@@ -72,8 +77,8 @@ class Evaluator {
   std::string_view AxisName(std::uint8_t axis) const;
 
  private:
-  Value EvalLiteral(const ir::Expr& expr) const;
-  Value EvalUnary(ir::ExprId id, const ir::Expr& expr);
+  Value EvalStored(ir::ExprId id, const ir::Expr& expr);
+  Value EvalUnary(const ir::Expr& expr);
   Value EvalArithmetic(ir::ExprId id, const ir::Expr& expr);
   Value EvalComparison(const ir::Expr& expr);
   Value EvalBits(const ir::Expr& expr);

@@ -97,6 +97,11 @@ bool Runner::JumpTo(BlockId target) {
     PopLevel();
     Activate();
   }
+  const Level& level = levels_.back();
+  if (level.kind == LevelKind::kRange && (target.value < level.begin || target.value >= level.end)) {
+    session_.Refuse(diag::Code::kCannotRun, "a jump out of a called range of blocks");
+    return true;
+  }
   pc_ = target.value;
   return true;
 }
@@ -117,7 +122,7 @@ bool Runner::Switch(const Word& word) {
 }
 
 bool Runner::Mark(const ir::Block& block, const Word& word) {
-  if (!block.link.Valid() && word.op != WordOp::kElse) {
+  if (!block.link.Valid()) {
     session_.Refuse(diag::Code::kRefusedBlock);
     return true;
   }

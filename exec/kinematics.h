@@ -42,7 +42,11 @@ class Kinematics {
   void ShowComp();
   [[nodiscard]] double LengthFactor() const;       // of lengths as programmed, to mm
   [[nodiscard]] double FeedFactor() const;         // of feeds
-  bool Unknown(bool unknown, std::string_view what);
+  bool Unknown(bool unknown, std::string_view what) {
+    if (unknown) [[unlikely]] RefuseUnknown(what);
+    return unknown;
+  }
+  void RefuseUnknown(std::string_view what);
 
   // frames.cc
   void ApplyFrame(const BlockWork& work);
@@ -95,7 +99,6 @@ class Kinematics {
   std::uint16_t from_known_ = 0;
   std::uint16_t moved_ = 0;              // axes that the block names, workpiece coordinates
   std::uint16_t reached_ = 0;            // the same in trace coordinates
-  bool feed_mode_written_ = false;
 
   // A straight line of which only the angle is known yet (two-block contours).
   struct Open {

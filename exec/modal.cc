@@ -19,9 +19,8 @@ Kinematics::Kinematics(Session& session, Channel& channel, Emitter& emitter, con
 
 std::string_view Kinematics::NameOf(std::uint8_t axis) const { return names_.AxisName(axis); }
 
-bool Kinematics::Unknown(bool unknown, std::string_view what) {
-  if (unknown) session_.Refuse(diag::Code::kUnknownModalState, what, "nothing in the run has set it");
-  return unknown;
+void Kinematics::RefuseUnknown(std::string_view what) {
+  session_.Refuse(diag::Code::kUnknownModalState, what, "nothing in the run has set it");
 }
 
 double Kinematics::LengthFactor() const {
@@ -58,10 +57,7 @@ void Kinematics::Set(const ir::Word& word, double extension, BlockWork& work) {
     }
     case WordOp::kDistance: modal.distance = static_cast<ir::Distance>(word.index); break;
     case WordOp::kUnits: modal.units = static_cast<ir::Units>(word.index); break;
-    case WordOp::kFeedMode:
-      SetFeedMode(static_cast<ir::FeedMode>(word.index));
-      feed_mode_written_ = true;
-      break;
+    case WordOp::kFeedMode: SetFeedMode(static_cast<ir::FeedMode>(word.index)); break;
     case WordOp::kSpeedMode: SetSpeedMode(word, work); break;
     case WordOp::kCutterComp: modal.comp = static_cast<ir::CutterComp>(word.index); break;
     case WordOp::kDiameter: modal.diameter = static_cast<ir::Diameter>(word.index); break;
@@ -91,7 +87,7 @@ void Kinematics::SetSpeedMode(const ir::Word& word, const BlockWork& work) {
   channel_.modal.speed_mode = mode;
   if (mode == ir::SpeedMode::kConstantSurface) {
     if (!was_surface) channel_.spindles[0].speed_known = false;
-    if (session_.machine.surface_speed_per_revolution && !feed_mode_written_) SetFeedMode(ir::FeedMode::kPerRevolution);
+    if (session_.machine.surface_speed_per_revolution && !work.Has(BlockWork::kFeedMode)) SetFeedMode(ir::FeedMode::kPerRevolution);
     return;
   }
   Channel::Spindle& spindle = channel_.spindles[0];
@@ -168,7 +164,6 @@ void Kinematics::SetFeed(const BlockWork& work) {
 }
 
 void Kinematics::FinishSettings(const BlockWork& work) {
-  feed_mode_written_ = false;
   if (work.Has(BlockWork::kFeed)) SetFeed(work);
   if (work.Has(BlockWork::kFrame)) ApplyFrame(work);
   if (work.Has(BlockWork::kRoundModal)) channel_.modal_rounding = work.round_modal * LengthFactor();

@@ -36,7 +36,7 @@ bool Kinematics::Move(const BlockWork& work) {
   const bool polar = work.Has(BlockWork::kPolarRadius | BlockWork::kPolarAngle);
   const bool round = work.centers != 0 || work.Has(BlockWork::kRadius | BlockWork::kOpening);
   const Motion motion = work.Has(BlockWork::kOneShotMotion) ? work.one_shot : channel_.modal.motion;
-  const bool circle = (motion == Motion::kArcCw || motion == Motion::kArcCcw) && round;
+  const bool circle = motion >= Motion::kArcCw && motion <= Motion::kArcTangent && (round || work.vias != 0);
   if (work.axes == 0 && !polar && !circle && !work.Has(BlockWork::kContourAngle | BlockWork::kReference)) return false;
 
   std::memcpy(from_, channel_.base, sizeof from_);
@@ -45,10 +45,10 @@ bool Kinematics::Move(const BlockWork& work) {
     ReferenceMove(work);
     return false;
   }
-  const bool stops = work.Has(BlockWork::kExactOnce) && channel_.modal.path == ir::PathMode::kContinuous;
-  if (stops) SetPath(ir::PathMode::kExact);
+  const ir::PathMode path = channel_.modal.path;
+  if (work.Has(BlockWork::kExactOnce)) SetPath(ir::PathMode::kExact);
   const bool moved = MoveByMode(work);
-  if (stops) SetPath(ir::PathMode::kContinuous);
+  if (work.Has(BlockWork::kExactOnce)) SetPath(path);
   return moved && !session_.halted;
 }
 
@@ -56,6 +56,11 @@ bool Kinematics::MoveByMode(const BlockWork& work) {
   const Motion motion = work.Has(BlockWork::kOneShotMotion) ? work.one_shot : channel_.modal.motion;
   if (work.Has(BlockWork::kMachineCoords)) return MachineMove(work);
   if (open_.active) return CloseAngle(work);
+  const bool takes_center = (motion >= Motion::kArcCw && motion <= Motion::kTapOut) || motion == Motion::kUnknown;
+  if (!takes_center && (work.centers != 0 || work.vias != 0 || work.Has(BlockWork::kRadius | BlockWork::kOpening | BlockWork::kTurns))) {
+    session_.Refuse(diag::Code::kCannotRun, "words of an arc while no arc is in force");
+    return false;
+  }
   if (!ResolveTargets(work)) return false;
   switch (motion) {
     case Motion::kUnknown: return !Unknown(true, "the kind of motion");

@@ -167,7 +167,8 @@ void Runner::Gather(const ir::Block& block) {
     session_.word = &word;
     Value value;
     if (word.value.Valid()) {
-      value = evaluator_.Eval(word.value);
+      const ir::Expr& expr = module.exprs[word.value];
+      value = expr.op == ir::ExprOp::kLiteral ? Evaluator::LiteralOf(expr) : evaluator_.Eval(word.value);
       if (session_.halted) return;
       if (value.IsVacant() && (word.flags & Word::kVanishesVacant) != 0) {
         values_[index - block.words.begin] = value;
@@ -300,6 +301,7 @@ void Runner::Collect(const Word& word, const Value& value) {
       return;
     case WordOp::kSpeed: work_.has |= BlockWork::kSpeed; return;
     case WordOp::kSpeedLimit: work_.has |= BlockWork::kSpeedLimit; return;
+    case WordOp::kFeedMode: work_.has |= BlockWork::kFeedMode; return;
     case WordOp::kEdge: work_.has |= BlockWork::kEdge; return;
     default: return;
   }
@@ -373,7 +375,6 @@ void Runner::EndRun() {
 
 /// The last event of a run.
 void Runner::Report() {
-  if (!session_.block.Valid()) return;
   if (session_.outcome == Outcome::kEnded) {
     emitter_.Send(emitter_.Begin(EventKind::kEnd));
     return;

@@ -446,6 +446,25 @@ TEST_CASE_FIXTURE(RunFixture, "a call of a block range runs both ends and comes 
   CHECK(Run() == "RAPID X0\nRAPID X1\nRAPID X2\nRAPID X2 Y1\nEND\n");
 }
 
+TEST_CASE_FIXTURE(RunFixture, "a jump out of a called range is refused") {
+  ir::ProgramBuilder program(module, "MAIN");
+  ir::BlockBuilder call = program.Block();
+  call.Call(program.Id());
+  ir::Call& record = module.calls[ir::CallId{module.calls.Size() - 1}];
+  record.program = {};
+  record.name = {};
+  record.form = ir::CallForm::kBlockRange;
+  record.from.label = module.strings.Intern("A");
+  record.to.label = module.strings.Intern("A");
+  call.Finish();
+  Line(program, "M30");
+  program.Block().Label("A").Jump("B", Search::kForward).Finish();
+  Words(program.Block().Label("B"), "M30").Finish();
+  program.Finish();
+  Run();
+  CHECK(Finding().find("out of a called range") != std::string::npos);
+}
+
 TEST_CASE_FIXTURE(RunFixture, "levels of locals: a call may open one or share that of its caller") {
   const ir::SpaceId locals = ir::AddSpace(module, "#", 1, 33, ir::Type::kNumber, ir::StartValue::kVacant);
   module.spaces[locals].visibility = ir::Visibility::kLevel;

@@ -168,6 +168,25 @@ TEST_CASE_FIXTURE(RunFixture, "new values for the present position move the zero
   CHECK(Trace({"G0 X10 Y5", "G92 X0", "X1", "Y6"}) == "RAPID X10 Y5\nRAPID X11 Y5\nRAPID X11 Y6\n");
 }
 
+TEST_CASE_FIXTURE(RunFixture, "surface speed with a feed mode of its own keeps the feed") {
+  CHECK(Trace({"G1 X1 F100", "G96 G94", "X2"}) == "LINE X1 F100\nLINE X2 F100\n");
+}
+
+TEST_CASE_FIXTURE(RunFixture, "words of an arc are never dropped") {
+  Trace({"G0 X0 Y0", "G1 X5 I2 F100"});
+  CHECK(Finding().find("no arc is in force") != std::string::npos);
+  RunFixture closed;
+  CHECK(closed.Trace({"G0 X0 Y0 Z0 F100", "CIP I1=10 J1=0"}) == "RAPID X0 Y0 Z0\nALARM circle end point is the start point\n");
+}
+
+TEST_CASE_FIXTURE(RunFixture, "an empty program has no end, or is at its end") {
+  ir::ProgramBuilder program(module, "EMPTY");
+  program.Finish();
+  CHECK(Run() == "ALARM end program EMPTY has no end\n");
+  machine.file_end_is_end = true;
+  CHECK(Run() == "END\n");
+}
+
 TEST_CASE_FIXTURE(RunFixture, "words whose mode nothing has set are refused") {
   machine.start = {};
   Trace({"X1"});

@@ -42,14 +42,8 @@ std::string TextOf(const ir::Module& module) {
   return std::string(out.View());
 }
 
-void CheckFile(const std::filesystem::path& path, const char* profile_name) {
-  SourceFiles files;
-  const FileId file = files.Add(path.filename().string(), FileText(path));
-  const dialects::Profile profile = dialects::BuiltIn(profile_name);
-  ir::Module module;
-  diag::Sink sink;
-  (void)ReadFile(files, file, profile, {}, module, sink);
-  const auto violation = ir::FindViolation(module, {.names_resolved = false, .structure_built = true});
+void CheckModule(const ir::Module& module, const std::filesystem::path& path, bool resolved) {
+  const auto violation = ir::FindViolation(module, {.names_resolved = resolved, .structure_built = true});
   CHECK_MESSAGE(!violation, path.string() << ": " << violation.value_or(""));
   if (violation) return;
   const std::string text = TextOf(module);
@@ -59,6 +53,18 @@ void CheckFile(const std::filesystem::path& path, const char* profile_name) {
     FAIL_CHECK(path.string() << ": line " << finding.at.line << " of the dump: " << finding.message);
   }
   if (again.Ok()) CHECK_MESSAGE(TextOf(*again) == text, path.string());
+}
+
+void CheckFile(const std::filesystem::path& path, const char* profile_name) {
+  SourceFiles files;
+  const FileId file = files.Add(path.filename().string(), FileText(path));
+  const dialects::Profile profile = dialects::BuiltIn(profile_name);
+  ir::Module module;
+  diag::Sink sink;
+  (void)ReadFile(files, file, profile, {}, module, sink);
+  CheckModule(module, path, false);
+  ResolveNames(files, module, profile, sink);
+  CheckModule(module, path, !sink.HasErrors());
 }
 
 }  // namespace

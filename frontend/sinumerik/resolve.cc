@@ -60,7 +60,17 @@ void Resolver::Run() {
   ReadLibrary();
   IndexVariables();
   for (const ir::ProgramId id : module_.programs.Ids()) Program(id);
-  // What is left stands in refused blocks, which nobody looks into.
+  // What is left stands in refused blocks, which nobody looks into. What must be a place is none there.
+  const auto clear_place = [this](ExprId& place) {
+    using ir::ExprOp;
+    if (!place.Valid()) return;
+    const ExprOp op = module_.exprs[place].op;
+    const bool writable = op == ExprOp::kVariable || op == ExprOp::kElement || op == ExprOp::kCell ||
+                          op == ExprOp::kCellAt || op == ExprOp::kSystem;
+    if (!writable) place = {};
+  };
+  for (ir::For& loop : module_.fors.All()) clear_place(loop.variable);
+  for (ir::AssignList& list : module_.assign_lists.All()) clear_place(list.place);
   for (ir::Expr& expr : module_.exprs.All()) {
     if (expr.op == ir::ExprOp::kName) expr = ir::Expr();
   }

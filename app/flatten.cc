@@ -61,7 +61,8 @@ Status Flatten(Context& context, const std::vector<Input>& inputs, const Flatten
   }
   app::ProgramSet set;
   NCPORT_TRY(app::ReadSet(context, inputs, options, ProfileNeed::kNamed, set));
-  NCPORT_TRY_ASSIGN(const exec::RunOptions run, app::RunOptionsFor(context, set, options));
+  NCPORT_TRY_ASSIGN(exec::RunOptions run, app::RunOptionsFor(context, set, options));
+  run.count_turns = options.side_by_side || options.source_map != nullptr;
 
   exec::Coverage coverage;
   backends::iso::FlatOptions flat;

@@ -325,13 +325,22 @@ void Runner::Settings(const ir::Block& block) {
 
 void Runner::Actions(const ir::Block& block, Phase phase) {
   const bool edge = work_.Has(BlockWork::kEdge);
-  // A speed limit must be in force before the speed that it limits.
-  for (int round = phase == Phase::kBefore && work_.Has(BlockWork::kSpeedLimit) ? 0 : 1; round < 2; ++round) {
+  // A speed limit must be in force before the speed that it limits, and an offset belongs to the tool that the block
+  // changes to, wherever they stand in it: speed limits, everything else, offsets.
+  bool change = false;
+  for (std::uint32_t index = block.words.begin; index < words_end_; ++index) {
+    change = change || session_.module.words[WordId{std::size_t{index}}].op == WordOp::kToolChange;
+  }
+  const auto round_of = [&](WordOp op) {
+    if (op == WordOp::kSpeedLimit && phase == Phase::kBefore) return 0;
+    const bool offset = op == WordOp::kEdge || op == WordOp::kLengthOffset || op == WordOp::kRadiusOffset;
+    return change && offset ? 2 : 1;
+  };
+  const int last = change ? 2 : 1;
+  for (int round = phase == Phase::kBefore && work_.Has(BlockWork::kSpeedLimit) ? 0 : 1; round <= last; ++round) {
     for (std::uint32_t index = block.words.begin; index < words_end_; ++index) {
       const Word& word = session_.module.words[WordId{std::size_t{index}}];
-      if (word.phase != phase) continue;
-      const bool limit = word.op == WordOp::kSpeedLimit && phase == Phase::kBefore;
-      if (limit != (round == 0)) continue;
+      if (word.phase != phase || round_of(word.op) != round) continue;
       const Value& value = values_[index - block.words.begin];
       if (word.value.Valid() && value.IsVacant() && (word.flags & Word::kVanishesVacant) != 0) continue;
       session_.word = &word;

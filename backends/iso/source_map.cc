@@ -52,7 +52,7 @@ void SourceMapWriter::OnFlatBlock(std::uint64_t line, std::string_view, const Fl
     buffer_.Append('}');
   }
   buffer_.Append("],\"turns\":[");
-  for (std::uint32_t level = 0; frames != nullptr && level <= frames->depth; ++level) {
+  for (std::uint32_t level = 0; frames != nullptr && frames->turns != nullptr && level <= frames->depth; ++level) {
     if (level != 0) buffer_.Append(',');
     AppendInteger(buffer_, frames->turns[level]);
   }
@@ -64,7 +64,8 @@ Status SourceMapWriter::Finish() { return output_.Flush(buffer_); }
 
 void SideBySideWriter::OnFlatBlock(std::uint64_t, std::string_view text, const FlatOrigin& origin) {
   std::string left;
-  const std::uint32_t turn = origin.frames != nullptr ? origin.frames->turns[origin.frames->depth] : 0;
+  const bool counted = origin.frames != nullptr && origin.frames->turns != nullptr;
+  const std::uint32_t turn = counted ? origin.frames->turns[origin.frames->depth] : 0;
   if (origin.block.Valid() && (origin.block != shown_ || turn != shown_turn_)) {
     const SourceRange range = module_.RangeOf(module_.blocks[origin.block]);
     std::string_view source = range.file.Valid() ? files_.Line(range.file, range.line) : std::string_view{};

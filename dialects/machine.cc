@@ -52,8 +52,13 @@ ir::Machine MachineFor(const Profile& profile) {
     case Language::kNum:
       num::FillMachine(profile, machine);
       break;
-    case Language::kLinuxCnc:  // no card yet: what ir::Machine begins with
     case Language::kIso:
+      // iso-7: S of a mill is a speed; constant surface speed is a matter of lathes.
+      if (!machine.lathe) machine.start.speed_mode = ir::SpeedMode::kRpm;
+      // iso-5: each flat program switches compensation off in its first block; that is no event of the work.
+      machine.start.comp = ir::CutterComp::kOff;
+      break;
+    case Language::kLinuxCnc:  // no card yet: what ir::Machine begins with
       break;
   }
   return machine;

@@ -2,6 +2,7 @@
 
 #include <unordered_set>
 
+#include "frontend/iso/reader.h"
 #include "frontend/sinumerik/reader.h"
 #include "frontend/sinumerik/resolve.h"
 
@@ -14,10 +15,11 @@ Status ReadFile(const SourceFiles& files, FileId file, const dialects::Profile& 
   switch (profile.language) {
     case dialects::Language::kSinumerik:
       return sinumerik::ReadFile(files, file, profile, options, module, sink);
+    case dialects::Language::kIso:
+      return iso::ReadFile(files, file, profile, options, module, sink);
     case dialects::Language::kFanuc:
     case dialects::Language::kNum:
     case dialects::Language::kLinuxCnc:
-    case dialects::Language::kIso:
       break;
   }
   sink.Report(diag::Code::kUnreadLanguage, {file, 0, 0, 0}, dialects::NameOf(profile.language));

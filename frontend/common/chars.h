@@ -7,6 +7,7 @@ namespace ncport::frontend {
 
 constexpr bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 constexpr bool IsLetter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
+constexpr bool IsBlank(char c) { return c == ' ' || c == '\t'; }
 constexpr char Upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 /// Equal without regard to case; `upper` is in upper case.
 constexpr bool IsWord(std::string_view text, std::string_view upper) {

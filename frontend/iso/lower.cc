@@ -72,7 +72,7 @@ ir::ExprId Lowering::Literal(const Token& token) {
 ir::ExprId Lowering::Whole(double number, const Token& token) {
   Token part = token;
   part.number = number;
-  part.format = {.int_digits = 1};
+  part.format = {.int_digits = static_cast<std::uint8_t>(number >= 10 ? 2 : 1)};
   return Literal(part);
 }
 

@@ -66,10 +66,13 @@ Arc ArcByCenter(Point start, Point end, Point center, bool clockwise, const ArcT
   const double chord = Distance(start, end);
   if (!tolerance.correct || difference <= kSamePoint || chord <= kSamePoint) return arc;
   // The nearest point of the perpendicular bisector.
-  const double along = ((center.u - (start.u + end.u) / 2) * (end.u - start.u) + (center.v - (start.v + end.v) / 2) * (end.v - start.v)) / chord;
+  const double along = ((center.u - (start.u + end.u) / 2) * (end.u - start.u) +
+                        (center.v - (start.v + end.v) / 2) * (end.v - start.v)) /
+                       chord;
   arc.center = {center.u - along * (end.u - start.u) / chord, center.v - along * (end.v - start.v) / chord};
-  const double turn = std::atan2((center.u - start.u) * (arc.center.v - start.v) - (center.v - start.v) * (arc.center.u - start.u),
-                                 (center.u - start.u) * (arc.center.u - start.u) + (center.v - start.v) * (arc.center.v - start.v));
+  const double turn =
+      std::atan2((center.u - start.u) * (arc.center.v - start.v) - (center.v - start.v) * (arc.center.u - start.u),
+                 (center.u - start.u) * (arc.center.u - start.u) + (center.v - start.v) * (arc.center.v - start.v));
   if (tolerance.angle > 0 && std::fabs(turn) * 180 / kPi > tolerance.angle) arc.fault = ArcFault::kRadiiDiffer;
   return arc;
 }

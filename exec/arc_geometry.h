@@ -1,5 +1,5 @@
-// Circles in a plane: centres from radius, opening angle, three points, tangent. Pure geometry, lengths in mm, angles in
-// degrees; `clockwise` is seen against the third axis of the plane.
+// Circles in a plane: centres from radius, opening angle, three points, tangent. Pure geometry, lengths in mm, angles
+// in degrees; `clockwise` is seen against the third axis of the plane.
 #pragma once
 
 namespace ncport::exec {
@@ -11,26 +11,27 @@ struct Point {
 
 enum class ArcFault : unsigned char {
   kNone,
-  kRadiusTooSmall,   // for the distance of start and end
-  kNoEnd,            // start and end are one point where two are needed
-  kBadAngle,         // opening angle not in (0, 360)
-  kRadiiDiffer,      // at start and end, by more than the tolerance
-  kCenterOnPoint,    // centre at the start or end point
-  kOnLine,           // three points on one line
+  kRadiusTooSmall,  // for the distance of start and end
+  kNoEnd,           // start and end are one point where two are needed
+  kBadAngle,        // opening angle not in (0, 360)
+  kRadiiDiffer,     // at start and end, by more than the tolerance
+  kCenterOnPoint,   // centre at the start or end point
+  kOnLine,          // three points on one line
 };
 
 struct Arc {
   Point center;
   Point end;
   bool clockwise = false;
-  bool line = false;        // tangent arc that is a straight line
+  bool line = false;  // tangent arc that is a straight line
   ArcFault fault = ArcFault::kNone;
   double start_radius = 0;
   double end_radius = 0;
 };
 
-/// How far the radii of a centre may differ: `length` mm or `factor` times the start radius, whichever is larger; the centre is
-/// then moved to the nearest place that fits both (`correct`), seen from the start by at most `angle` degrees (0 = any).
+/// How far the radii of a centre may differ: `length` mm or `factor` times the start radius, whichever is larger; the
+/// centre is then moved to the nearest place that fits both (`correct`), seen from the start by at most `angle` degrees
+/// (0 = any).
 struct ArcTolerance {
   double length = 0.01;
   double factor = 0.001;

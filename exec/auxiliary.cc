@@ -31,7 +31,8 @@ Channel::Spindle* Auxiliary::SpindleOf(std::uint8_t index) {
 
 void Auxiliary::Act(const ir::Word& word, const Value& value, bool edge_follows) {
   switch (word.op) {
-    case WordOp::kSpeed: return Speed(word, evaluator_.ToNumber(value));
+    case WordOp::kSpeed:
+      return Speed(word, evaluator_.ToNumber(value));
     case WordOp::kSpeedLimit: {
       Channel::Spindle* const spindle = SpindleOf(word.index);
       if (spindle == nullptr) return;
@@ -61,15 +62,19 @@ void Auxiliary::Act(const ir::Word& word, const Value& value, bool edge_follows)
       event.value = spindle->position;
       return emitter_.Send(event);
     }
-    case WordOp::kTool: return Tool(value, edge_follows);
+    case WordOp::kTool:
+      return Tool(value, edge_follows);
     case WordOp::kToolChange: {
       Event& event = emitter_.Begin(EventKind::kAux);
       event.number = 6;
       return emitter_.Send(event);
     }
-    case WordOp::kEdge: return Edge(Whole(value));
-    case WordOp::kToolOffset: return Offset(OffsetKind::kNumber, Whole(value));
-    case WordOp::kRadiusOffset: return Offset(OffsetKind::kRadius, Whole(value));
+    case WordOp::kEdge:
+      return Edge(Whole(value));
+    case WordOp::kToolOffset:
+      return Offset(OffsetKind::kNumber, Whole(value));
+    case WordOp::kRadiusOffset:
+      return Offset(OffsetKind::kRadius, Whole(value));
     case WordOp::kLengthOffset:
       if (!value.IsVacant()) return Offset(OffsetKind::kLength, Whole(value));
       if (word.index == 0) Offset(OffsetKind::kNone, 0);  // the word that switches it off
@@ -82,9 +87,12 @@ void Auxiliary::Act(const ir::Word& word, const Value& value, bool edge_follows)
       if (word.op == WordOp::kAuxH) event.text = "H";
       return emitter_.Send(event);
     }
-    case WordOp::kStop: return emitter_.Send(emitter_.Begin(EventKind::kStop));
-    case WordOp::kOptionalStop: return emitter_.Send(emitter_.Begin(EventKind::kOptionalStop));
-    default: return;
+    case WordOp::kStop:
+      return emitter_.Send(emitter_.Begin(EventKind::kStop));
+    case WordOp::kOptionalStop:
+      return emitter_.Send(emitter_.Begin(EventKind::kOptionalStop));
+    default:
+      return;
   }
 }
 
@@ -153,7 +161,8 @@ void Auxiliary::Alarm(const ir::Word& word, const Value& value) {
   if (session_.halted) return;
   bool shows = word.index == static_cast<std::uint8_t>(ir::AlarmKind::kShows);
   if (word.index == static_cast<std::uint8_t>(ir::AlarmKind::kByNumber)) {
-    for (const ir::AlarmRange& range : session_.machine.shown_alarms) shows = shows || (number >= range.first && number <= range.last);
+    for (const ir::AlarmRange& range : session_.machine.shown_alarms)
+      shows = shows || (number >= range.first && number <= range.last);
   }
   if (!shows) {
     session_.Alarm(ir::AlarmClass::kUser, text.View());

@@ -16,8 +16,8 @@ class Auxiliary {
   Auxiliary(Session& session, Channel& channel, Emitter& emitter, Evaluator& evaluator)
       : session_(session), channel_(channel), emitter_(emitter), evaluator_(evaluator) {}
 
-  /// Words of spindle, tool, offsets, M and H. `value`: of the word, vacant if it has none. `edge_follows`: the block also
-  /// selects an edge.
+  /// Words of spindle, tool, offsets, M and H. `value`: of the word, vacant if it has none. `edge_follows`: the block
+  /// also selects an edge.
   void Act(const ir::Word& word, const Value& value, bool edge_follows);
   /// Message, Print, Alarm, as their words are met.
   void Message(const ir::Word& word, const Value& value);

@@ -30,7 +30,7 @@ struct BlockWork {
     kPreset = 1U << 15U,
     kDwell = 1U << 16U,
     kExactOnce = 1U << 17U,
-    kOneShotMotion = 1U << 18U,   // a motion word that holds for this block only
+    kOneShotMotion = 1U << 18U,  // a motion word that holds for this block only
     kMotionWord = 1U << 19U,
     kSpeed = 1U << 20U,
     kRoundModal = 1U << 21U,
@@ -41,8 +41,8 @@ struct BlockWork {
 
   std::uint32_t has = 0;
   std::uint16_t axes = 0;
-  std::uint16_t rounded = 0;      // axes whose word passes through Machine::word_error
-  std::uint8_t centers = 0;       // bits I J K
+  std::uint16_t rounded = 0;  // axes whose word passes through Machine::word_error
+  std::uint8_t centers = 0;   // bits I J K
   std::uint8_t vias = 0;
 
   double axis[ir::kMaxAxes];
@@ -51,7 +51,8 @@ struct BlockWork {
   ir::ValueMode center_mode[3];
   double via[3];
   ir::ValueMode via_mode[3];
-  double radius, opening, turns, polar_radius, polar_angle, chamfer, round_modal, contour_angle, start_angle, feed, feed_once, frame_angle, dwell;
+  double radius, opening, turns, polar_radius, polar_angle, chamfer, round_modal, contour_angle, start_angle, feed,
+      feed_once, frame_angle, dwell;
   ir::ValueMode polar_angle_mode;
   ir::ChamferKind chamfer_kind;
   ir::FrameOp frame;

@@ -19,28 +19,28 @@ struct Channel {
   // Position of the last programmed point. `base` is what traces show, `work` is the same point before the frame.
   double base[ir::kMaxAxes] = {};
   double work[ir::kMaxAxes] = {};
-  double step_from[ir::kMaxAxes] = {};   // where increments start when they traverse a frame change (Machine)
+  double step_from[ir::kMaxAxes] = {};  // where increments start when they traverse a frame change (Machine)
   std::uint16_t base_known = 0;
   std::uint16_t work_known = 0;
-  std::uint16_t uncertain = 0;           // last moved under another work offset or to a probe: good to show, not to compute with
-  std::uint16_t programmed = 0;          // axes of the trace that the run has named
+  std::uint16_t uncertain = 0;  // last moved under another work offset or to a probe: good to show, not to compute with
+  std::uint16_t programmed = 0;  // axes of the trace that the run has named
   Frame frame;
 
   // Feed: mm/min, mm/rev or 1/min by the mode in which it was written.
   bool feed_known = false;
   ir::FeedMode feed_mode = ir::FeedMode::kUnknown;
   double feed = 0;
-  double thread_change = 0;              // of the lead, per revolution
+  double thread_change = 0;  // of the lead, per revolution
 
   // Spindle 0 is the master spindle.
   static constexpr std::uint8_t kSpindles = 8;
   struct Spindle {
     ir::SpindleState state = ir::SpindleState::kUnknown;
     bool speed_known = false;
-    double speed = 0;                    // 1/min, or m/min in constant surface speed
+    double speed = 0;  // 1/min, or m/min in constant surface speed
     bool limit_known = false;
-    double limit = 0;                    // 1/min
-    double position = 0;                 // degrees
+    double limit = 0;     // 1/min
+    double position = 0;  // degrees
   };
   Spindle spindles[kSpindles];
 
@@ -63,7 +63,7 @@ struct Channel {
   bool direction_known = false;
   double direction[3] = {};
 
-  double modal_rounding = 0;             // RNDM, mm; 0 = off
+  double modal_rounding = 0;                             // RNDM, mm; 0 = off
   ir::CutterComp shown_comp = ir::CutterComp::kUnknown;  // side as traces show it: mirrors exchange it
 };
 

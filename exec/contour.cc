@@ -25,7 +25,8 @@ bool MovesIn(const Event& event, const PlaneAxes& axes) {
 /// True if an axis besides those of the plane moves: a shortened element would not end where its depth says.
 bool MovesOutOf(const Event& event, const PlaneAxes& axes) {
   for (std::uint8_t axis = 0; axis < ir::kMaxAxes; ++axis) {
-    if (axis != axes.first && axis != axes.second && (event.moved_axes & AxisBit(axis)) != 0 && event.position[axis] != event.from[axis]) {
+    if (axis != axes.first && axis != axes.second && (event.moved_axes & AxisBit(axis)) != 0 &&
+        event.position[axis] != event.from[axis]) {
       return true;
     }
   }
@@ -61,7 +62,8 @@ void Contour::Drop() {
 void Contour::OtherMotion() {
   if (!waiting_) return;
   if (wish_.kind != ChamferKind::kRoundModal) {
-    session_.Refuse(diag::Code::kCannotRun, "a chamfer or rounding before a motion that is no line and no arc in the plane");
+    session_.Refuse(diag::Code::kCannotRun,
+                    "a chamfer or rounding before a motion that is no line and no arc in the plane");
     return;
   }
   Drop();
@@ -93,7 +95,8 @@ void Contour::Join(Event& next, const Wish& wish) {
   const bool out = MovesOutOf(first_, axes) || MovesOutOf(next, axes) || first_.full_circle || next.full_circle ||
                    (next.kind == EventKind::kArc && next.plane != wish_.plane) ||
                    (first_.kind == EventKind::kArc && first_.plane != wish_.plane);
-  if (out) return session_.Refuse(diag::Code::kCannotRun, "a chamfer or rounding at a motion that is not flat in the plane");
+  if (out)
+    return session_.Refuse(diag::Code::kCannotRun, "a chamfer or rounding at a motion that is not flat in the plane");
 
   const exec::Element a = ElementOf(first_, axes);
   const exec::Element b = ElementOf(next, axes);
@@ -103,9 +106,10 @@ void Contour::Join(Event& next, const Wish& wish) {
   if (corner.fault == CornerFault::kSmooth) return pass_on();
   if (corner.fault != CornerFault::kNone) {
     waiting_ = false;  // the control looks ahead: the element before the corner does not run either
-    return session_.Alarm(ir::AlarmClass::kGeometry, corner.fault == CornerFault::kReversal
-                                                         ? "chamfer or rounding between elements that run back on each other"
-                                                         : "chamfer or rounding is longer than its element");
+    return session_.Alarm(ir::AlarmClass::kGeometry,
+                          corner.fault == CornerFault::kReversal
+                              ? "chamfer or rounding between elements that run back on each other"
+                              : "chamfer or rounding is longer than its element");
   }
   const auto put = [&](double* position, Point point) {
     position[axes.first] = point.u;

@@ -1,4 +1,5 @@
-// Joins the elements of a contour: a motion that asks for a chamfer or a rounding waits until the next element is known.
+// Joins the elements of a contour: a motion that asks for a chamfer or a rounding waits until the next element is
+// known.
 #pragma once
 
 #include "exec/channel.h"
@@ -17,8 +18,8 @@ class Contour {
   struct Wish {
     bool active = false;
     ir::ChamferKind kind = ir::ChamferKind::kLength;
-    double size = 0;                      // mm
-    ir::Plane plane = ir::Plane::kXY;     // of the trace coordinates
+    double size = 0;                   // mm
+    ir::Plane plane = ir::Plane::kXY;  // of the trace coordinates
   };
 
   /// Hands a line or arc on. `wish` is what its block asks for at its end.

@@ -41,7 +41,7 @@ bool Inside(const Element& element, Point point) {
 /// The path of points at a signed distance to the left of an element: a line or a circle.
 struct Offset {
   bool arc = false;
-  Point point;        // of a line; centre of a circle
+  Point point;  // of a line; centre of a circle
   Point direction;
   double radius = 0;
 };
@@ -135,7 +135,8 @@ std::optional<Point> PointAt(const Element& element, bool from_end, double dista
   if (distance > 2 * radius) return std::nullopt;
   const double angle = 2 * std::asin(distance / (2 * radius)) * (element.clockwise == from_end ? 1 : -1);
   const Point arm = corner - element.center;
-  return element.center + Point{arm.u * std::cos(angle) - arm.v * std::sin(angle), arm.u * std::sin(angle) + arm.v * std::cos(angle)};
+  return element.center +
+         Point{arm.u * std::cos(angle) - arm.v * std::sin(angle), arm.u * std::sin(angle) + arm.v * std::cos(angle)};
 }
 
 }  // namespace
@@ -162,7 +163,8 @@ Corner CutCorner(const Element& first, const Element& second, double leg) {
   if (const CornerFault fault = FaultOf(BendOf(first, second)); fault != CornerFault::kNone) return Fault(fault);
   const std::optional<Point> from = PointAt(first, true, leg);
   const std::optional<Point> to = PointAt(second, false, leg);
-  if (!from.has_value() || !to.has_value() || !Inside(first, *from) || !Inside(second, *to)) return Fault(CornerFault::kTooShort);
+  if (!from.has_value() || !to.has_value() || !Inside(first, *from) || !Inside(second, *to))
+    return Fault(CornerFault::kTooShort);
   Corner corner;
   corner.first = *from;
   corner.second = *to;

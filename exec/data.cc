@@ -22,13 +22,15 @@ void Runner::AssignList(ir::AssignListId id) {
 /// Consecutive elements, the last index runs fastest; skipped places stay as they are (sinumerik-3.5).
 void Runner::FillFrom(const Place& first, const ir::AssignList& list) {
   const ir::Module& module = session_.module;
-  if (first.kind != Place::Kind::kCell) return session_.Refuse(diag::Code::kCannotRun, "a list of values for something that is no array");
+  if (first.kind != Place::Kind::kCell)
+    return session_.Refuse(diag::Code::kCannotRun, "a list of values for something that is no array");
   if (list.repeat) {
     double count = first.room;
     if (list.count.Valid()) count = ir::ops::Round(evaluator_.Number(list.count));
     const Value value = list.values.Empty() ? Value::Vacant() : evaluator_.Eval(module.Item(list.values.begin));
     if (session_.halted) return;
-    if (!(count >= 0 && count <= first.room)) return session_.Alarm(ir::AlarmClass::kIndex, "more values than elements");
+    if (!(count >= 0 && count <= first.room))
+      return session_.Alarm(ir::AlarmClass::kIndex, "more values than elements");
     for (std::uint32_t i = 0; i < count && !session_.halted; ++i) evaluator_.Store(first, value, i);
     return;
   }
@@ -42,7 +44,8 @@ void Runner::FillFrom(const Place& first, const ir::AssignList& list) {
   }
 }
 
-/// A DEF block is reached: the variable starts anew. Locals that outlive a run (modal subprograms) were made by the first one.
+/// A DEF block is reached: the variable starts anew. Locals that outlive a run (modal subprograms) were made by the
+/// first one.
 void Runner::Define(ir::VariableId id) {
   const ir::Variable& variable = session_.module.variables[id];
   if (CallLevel().keeps_locals || variable.by_reference) return;
@@ -65,7 +68,9 @@ void Runner::ApplyStartValues() {
   for (const ir::VariableId id : module.variables.Ids()) {
     if (!session_.linked.SlotOf(id).in_frame && !session_.halted) Define(id);
   }
-  const auto value_of = [&](const Value& value, const std::string& text) { return value.IsText() ? texts_.Add(text) : value; };
+  const auto value_of = [&](const Value& value, const std::string& text) {
+    return value.IsText() ? texts_.Add(text) : value;
+  };
   for (const StartValue& start : options.start_values) {
     Place place;
     if (start.variable.Valid()) {
@@ -75,7 +80,8 @@ void Runner::ApplyStartValues() {
       const ir::Space& space = module.spaces[start.space];
       const SpaceSlot& slot = session_.linked.SlotOf(start.space);
       if (start.cell < space.first || start.cell > space.last) {
-        return session_.Alarm(ir::AlarmClass::kIndex, fmt::format("{}{} does not exist", module.View(space.name), start.cell));
+        return session_.Alarm(ir::AlarmClass::kIndex,
+                              fmt::format("{}{} does not exist", module.View(space.name), start.cell));
       }
       place.kind = Place::Kind::kCell;
       place.type = space.type;
@@ -117,9 +123,11 @@ void Runner::ApplyStartValues() {
     // Nobody called, so what the reference leads to is made here.
     const std::uint32_t count = session_.linked.SlotOf(parameter).count;
     const Memory::Address cells = memory_.Push(count);
-    if (cells == Memory::kNoRoom) return session_.Limit("RunOptions::max_cells", diag::Code::kCellLimit, options.max_cells);
+    if (cells == Memory::kNoRoom)
+      return session_.Limit("RunOptions::max_cells", diag::Code::kCellLimit, options.max_cells);
     for (std::uint32_t k = 0; k < count; ++k) memory_[cells + k] = ZeroOf(variable.type);
-    if (!arguments_[i].IsVacant()) memory_[cells] = evaluator_.Converted(arguments_[i], variable.type, variable.string_length);
+    if (!arguments_[i].IsVacant())
+      memory_[cells] = evaluator_.Converted(arguments_[i], variable.type, variable.string_length);
     memory_[facts_.frame + offset] = {Evaluator::kReference, count, static_cast<double>(cells)};
   }
   levels_.front().facts.given = given;
@@ -129,14 +137,20 @@ void Runner::ApplyStartValues() {
 void Runner::ReportCell(std::string_view name, const Value& value) {
   TextBuffer text;
   switch (value.type) {
-    case ir::Type::kNone: text.Append("vacant"); break;
+    case ir::Type::kNone:
+      text.Append("vacant");
+      break;
     case ir::Type::kString:
       text.Append('"');
       text.Append(evaluator_.TextOf(value));
       text.Append('"');
       break;
-    case ir::Type::kAxis: text.Append(evaluator_.AxisName(static_cast<std::uint8_t>(value.number))); break;
-    default: AppendTrimmed(text, value.number, 6); break;
+    case ir::Type::kAxis:
+      text.Append(evaluator_.AxisName(static_cast<std::uint8_t>(value.number)));
+      break;
+    default:
+      AppendTrimmed(text, value.number, 6);
+      break;
   }
   Event& event = emitter_.Begin(EventKind::kSetVariable);
   event.text = name;

@@ -29,7 +29,8 @@ Event& Emitter::BeginMotion(EventKind kind, const double* from) {
   event_.feed = 0;
   event_.start_angle = 0;
   event_.change = 0;
-  event_.diameter_active = channel_.modal.diameter == ir::Diameter::kDiameter || channel_.modal.diameter == ir::Diameter::kDiameterAbsolute;
+  event_.diameter_active =
+      channel_.modal.diameter == ir::Diameter::kDiameter || channel_.modal.diameter == ir::Diameter::kDiameterAbsolute;
   event_.known_axes = channel_.programmed & channel_.base_known;
   std::memcpy(event_.position, channel_.base, sizeof event_.position);
   std::memcpy(event_.from, from, sizeof event_.from);
@@ -51,7 +52,8 @@ void Emitter::Send(const Event& event) {
 }
 
 void Emitter::SendNow(const Event& event) {
-  if (event.kind <= EventKind::kRapidMachine || event.kind == EventKind::kProbe || event.kind == EventKind::kReference) moved_ = true;
+  if (event.kind <= EventKind::kRapidMachine || event.kind == EventKind::kProbe || event.kind == EventKind::kReference)
+    moved_ = true;
   if (sink_.OnEvent(event) || session_.halted) return;
   session_.halted = true;
   session_.outcome = Outcome::kStopped;

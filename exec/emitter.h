@@ -1,5 +1,5 @@
-// Hands events to the sink of the run, in order. While a corner waits for the next element of the contour, the events behind it
-// wait too.
+// Hands events to the sink of the run, in order. While a corner waits for the next element of the contour, the events
+// behind it wait too.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// What only the machine knows: inputs, clock, probe, tool data, parameters. Without an answer a run stops with a finding
-// that names the place of the read: exec never invents one.
+// What only the machine knows: inputs, clock, probe, tool data, parameters. Without an answer a run stops with a
+// finding that names the place of the read: exec never invents one.
 #pragma once
 
 #include <optional>
@@ -27,7 +27,9 @@ class Environment {
 /// The environment that knows nothing.
 class NoEnvironment final : public Environment {
  public:
-  std::optional<Value> Read(const ir::System&, std::string_view, const Value*, std::size_t) override { return std::nullopt; }
+  std::optional<Value> Read(const ir::System&, std::string_view, const Value*, std::size_t) override {
+    return std::nullopt;
+  }
   bool Write(const ir::System&, std::string_view, const Value*, std::size_t, const Value&) override { return false; }
 };
 

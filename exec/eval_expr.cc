@@ -24,59 +24,78 @@ constexpr bool IsWhole(Type type) { return type == Type::kInt || type == Type::k
 }  // namespace
 
 Evaluator::Evaluator(Session& session, Memory& memory, Texts& texts, const Channel& channel, const CallFacts& facts)
-    : session_(session), module_(session.module), machine_(session.machine), memory_(memory), texts_(texts), channel_(channel),
+    : session_(session),
+      module_(session.module),
+      machine_(session.machine),
+      memory_(memory),
+      texts_(texts),
+      channel_(channel),
       facts_(facts) {}
 
 Value Evaluator::Eval(ExprId id) {
   const Expr& expr = module_.exprs[id];
   switch (expr.op) {
-    case ExprOp::kLiteral: return LiteralOf(expr);
+    case ExprOp::kLiteral:
+      return LiteralOf(expr);
     case ExprOp::kText: {
       StringId text;
       text.value = expr.a;
       return Texts::Constant(text);
     }
-    case ExprOp::kVacant: return Value::Vacant();
-    case ExprOp::kAxisName: return Value::Axis(static_cast<std::uint8_t>(expr.a));
+    case ExprOp::kVacant:
+      return Value::Vacant();
+    case ExprOp::kAxisName:
+      return Value::Axis(static_cast<std::uint8_t>(expr.a));
     case ExprOp::kVariable:
     case ExprOp::kElement:
     case ExprOp::kCell:
-    case ExprOp::kCellAt: return EvalStored(id, expr);
-    case ExprOp::kSystem: return EvalSystem(expr);
+    case ExprOp::kCellAt:
+      return EvalStored(id, expr);
+    case ExprOp::kSystem:
+      return EvalSystem(expr);
     case ExprOp::kName:
       session_.Refuse(diag::Code::kUnknownName, module_.View(StringId{std::size_t{expr.a}}));
       return Value::Vacant();
-    case ExprOp::kGroup: return Eval(ExprId{std::size_t{expr.a}});
+    case ExprOp::kGroup:
+      return Eval(ExprId{std::size_t{expr.a}});
     case ExprOp::kConvert:
     case ExprOp::kPlus:
     case ExprOp::kNegate:
     case ExprOp::kNot:
-    case ExprOp::kBitNot: return EvalUnary(expr);
+    case ExprOp::kBitNot:
+      return EvalUnary(expr);
     case ExprOp::kAdd:
     case ExprOp::kSubtract:
     case ExprOp::kMultiply:
     case ExprOp::kDivide:
     case ExprOp::kDivideInteger:
-    case ExprOp::kModulo: return EvalArithmetic(id, expr);
+    case ExprOp::kModulo:
+      return EvalArithmetic(id, expr);
     case ExprOp::kEqual:
     case ExprOp::kNotEqual:
     case ExprOp::kLess:
     case ExprOp::kLessEqual:
     case ExprOp::kGreater:
-    case ExprOp::kGreaterEqual: return EvalComparison(expr);
+    case ExprOp::kGreaterEqual:
+      return EvalComparison(expr);
     case ExprOp::kAnd:
     case ExprOp::kOr:
     case ExprOp::kXor: {
       // Both sides are evaluated: no short circuit is documented (sinumerik-4.2).
       const bool left = Truth(ExprId{std::size_t{expr.a}});
       const bool right = Truth(ExprId{std::size_t{expr.b}});
-      return Value::Bool(expr.op == ExprOp::kAnd ? left && right : expr.op == ExprOp::kOr ? left || right : left != right);
+      return Value::Bool(expr.op == ExprOp::kAnd  ? left && right
+                         : expr.op == ExprOp::kOr ? left || right
+                                                  : left != right);
     }
     case ExprOp::kBitAnd:
     case ExprOp::kBitOr:
-    case ExprOp::kBitXor: return EvalBits(expr);
-    case ExprOp::kConcat: return EvalConcat(expr);
-    case ExprOp::kFunction: return EvalFunction(expr);
+    case ExprOp::kBitXor:
+      return EvalBits(expr);
+    case ExprOp::kConcat:
+      return EvalConcat(expr);
+    case ExprOp::kFunction:
+      return EvalFunction(expr);
   }
   NCPORT_BUG("expression {} has no operation", id.value);
 }
@@ -127,13 +146,15 @@ Value Evaluator::Finished(ops::Number number, const Expr& expr, bool integer) {
     return Value::Real(0);
   }
   if (integer) {
-    if (number.value > static_cast<double>(machine_.int_max) || number.value < static_cast<double>(machine_.int_min)) [[unlikely]] {
+    if (number.value > static_cast<double>(machine_.int_max) || number.value < static_cast<double>(machine_.int_min))
+        [[unlikely]] {
       session_.Alarm(ops::Error::kOverflow);
       return Value::Int(0);
     }
     return Value::Int(number.value);
   }
-  if ((expr.flags & Expr::kNumericModel) != 0) return Value::Real(ops::ApplyModel(number.value, machine_.numeric_model));
+  if ((expr.flags & Expr::kNumericModel) != 0)
+    return Value::Real(ops::ApplyModel(number.value, machine_.numeric_model));
   return Value::Real(number.value);
 }
 
@@ -148,8 +169,10 @@ Value Evaluator::EvalUnary(const Expr& expr) {
       }
       if (value.IsVacant()) return value;
       return Converted(value, expr.type);
-    case ExprOp::kNot: return Value::Bool(!ToTruth(value));
-    case ExprOp::kBitNot: return Finished(ops::BitNot(Operand(value, expr)), expr, true);
+    case ExprOp::kNot:
+      return Value::Bool(!ToTruth(value));
+    case ExprOp::kBitNot:
+      return Finished(ops::BitNot(Operand(value, expr)), expr, true);
     case ExprOp::kNegate: {
       const double number = Operand(value, expr);
       return Finished({0.0 - number, ops::Error::kNone}, expr, IsWhole(value.type));
@@ -174,13 +197,17 @@ Value Evaluator::EvalArithmetic(ExprId id, const Expr& expr) {
   double b = Operand(right, expr);
   const bool whole = IsWhole(left.type) && IsWhole(right.type);
   switch (expr.op) {
-    case ExprOp::kAdd: return Finished(ops::Add(a, b), expr, whole);
-    case ExprOp::kSubtract: return Finished(ops::Subtract(a, b), expr, whole);
-    case ExprOp::kMultiply: return Finished(ops::Multiply(a, b), expr, whole);
+    case ExprOp::kAdd:
+      return Finished(ops::Add(a, b), expr, whole);
+    case ExprOp::kSubtract:
+      return Finished(ops::Subtract(a, b), expr, whole);
+    case ExprOp::kMultiply:
+      return Finished(ops::Multiply(a, b), expr, whole);
     case ExprOp::kDivide:
       NoteQuotient(id, a, b);
       return Finished(ops::Divide(a, b), expr, false);
-    default: break;
+    default:
+      break;
   }
   if ((expr.flags & Expr::kOperandsToInt) != 0) {
     a = ops::Round(a);
@@ -201,12 +228,18 @@ Value Evaluator::EvalComparison(const Expr& expr) {
     }
     const int order = texts_.View(left).compare(texts_.View(right));  // by code
     switch (expr.op) {
-      case ExprOp::kEqual: return Value::Bool(order == 0);
-      case ExprOp::kNotEqual: return Value::Bool(order != 0);
-      case ExprOp::kLess: return Value::Bool(order < 0);
-      case ExprOp::kLessEqual: return Value::Bool(order <= 0);
-      case ExprOp::kGreater: return Value::Bool(order > 0);
-      default: return Value::Bool(order >= 0);
+      case ExprOp::kEqual:
+        return Value::Bool(order == 0);
+      case ExprOp::kNotEqual:
+        return Value::Bool(order != 0);
+      case ExprOp::kLess:
+        return Value::Bool(order < 0);
+      case ExprOp::kLessEqual:
+        return Value::Bool(order <= 0);
+      case ExprOp::kGreater:
+        return Value::Bool(order > 0);
+      default:
+        return Value::Bool(order >= 0);
     }
   }
   if ((expr.flags & Expr::kVacantDiffers) != 0 && (left.IsVacant() || right.IsVacant())) {
@@ -217,19 +250,27 @@ Value Evaluator::EvalComparison(const Expr& expr) {
   const double b = right.number;
   const double tolerance = (expr.flags & Expr::kTolerance) != 0 ? machine_.compare_tolerance : 0;
   switch (expr.op) {
-    case ExprOp::kEqual: return Value::Bool(ops::Equal(a, b, tolerance));
-    case ExprOp::kNotEqual: return Value::Bool(!ops::Equal(a, b, tolerance));
-    case ExprOp::kLess: return Value::Bool(ops::Less(a, b, tolerance));
-    case ExprOp::kLessEqual: return Value::Bool(!ops::Less(b, a, tolerance));
-    case ExprOp::kGreater: return Value::Bool(ops::Less(b, a, tolerance));
-    default: return Value::Bool(!ops::Less(a, b, tolerance));
+    case ExprOp::kEqual:
+      return Value::Bool(ops::Equal(a, b, tolerance));
+    case ExprOp::kNotEqual:
+      return Value::Bool(!ops::Equal(a, b, tolerance));
+    case ExprOp::kLess:
+      return Value::Bool(ops::Less(a, b, tolerance));
+    case ExprOp::kLessEqual:
+      return Value::Bool(!ops::Less(b, a, tolerance));
+    case ExprOp::kGreater:
+      return Value::Bool(ops::Less(b, a, tolerance));
+    default:
+      return Value::Bool(!ops::Less(a, b, tolerance));
   }
 }
 
 Value Evaluator::EvalBits(const Expr& expr) {
   const double a = Operand(Eval(ExprId{std::size_t{expr.a}}), expr);
   const double b = Operand(Eval(ExprId{std::size_t{expr.b}}), expr);
-  const ops::BitOp op = expr.op == ExprOp::kBitAnd ? ops::BitOp::kAnd : expr.op == ExprOp::kBitOr ? ops::BitOp::kOr : ops::BitOp::kXor;
+  const ops::BitOp op = expr.op == ExprOp::kBitAnd  ? ops::BitOp::kAnd
+                        : expr.op == ExprOp::kBitOr ? ops::BitOp::kOr
+                                                    : ops::BitOp::kXor;
   return Finished(ops::Bits(op, a, b), expr, true);
 }
 
@@ -247,8 +288,8 @@ Value Evaluator::EvalFunction(const Expr& expr) {
   }
   if (session_.halted) return Value::Real(0);
   // These keep the type of what they choose from; others give REAL unless the language types them INT.
-  const bool keeps = function == ir::Function::kAbs || function == ir::Function::kMinimum || function == ir::Function::kMaximum ||
-                     function == ir::Function::kBound;
+  const bool keeps = function == ir::Function::kAbs || function == ir::Function::kMinimum ||
+                     function == ir::Function::kMaximum || function == ir::Function::kBound;
   return Finished(ops::Apply(function, args, expr.count, machine_), expr, (keeps && whole) || expr.type == Type::kInt);
 }
 
@@ -257,8 +298,10 @@ Value Evaluator::Converted(const Value& value, Type type, std::uint32_t string_l
   switch (type) {
     case Type::kNone:
     case Type::kAny:
-    case Type::kNumber: return value;
-    case Type::kReal: return Value::Real(ToNumber(value));
+    case Type::kNumber:
+      return value;
+    case Type::kReal:
+      return Value::Real(ToNumber(value));
     case Type::kInt:
     case Type::kBool:
     case Type::kChar: {
@@ -274,7 +317,8 @@ Value Evaluator::Converted(const Value& value, Type type, std::uint32_t string_l
       return {type, 0, number.value};
     }
     case Type::kString: {
-      const std::uint32_t most = string_length == 0 ? machine_.string_max : std::min(string_length, machine_.string_max);
+      const std::uint32_t most =
+          string_length == 0 ? machine_.string_max : std::min(string_length, machine_.string_max);
       if (value.IsText()) {
         const std::string_view text = texts_.View(value);
         if (text.size() <= most || ops::Length(text) <= most) return value;

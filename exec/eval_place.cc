@@ -60,7 +60,8 @@ std::uint32_t Evaluator::Index(ExprId id, std::uint32_t count, std::string_view 
   const double index = ops::Round(Number(id));
   if (index >= 0 && index < count) return static_cast<std::uint32_t>(index);
   ok = false;
-  session_.Alarm(ir::AlarmClass::kIndex, fmt::format("index {:.0f} of {} is outside 0 to {}", index, name, count == 0 ? 0 : count - 1));
+  session_.Alarm(ir::AlarmClass::kIndex,
+                 fmt::format("index {:.0f} of {} is outside 0 to {}", index, name, count == 0 ? 0 : count - 1));
   return 0;
 }
 
@@ -114,19 +115,28 @@ Place Evaluator::CellPlace(ir::SpaceId id, double number) {
 Place Evaluator::PlaceOf(ExprId id) {
   const Expr& expr = module_.exprs[id];
   switch (expr.op) {
-    case ExprOp::kVariable: return VariablePlace(ir::VariableId{std::size_t{expr.a}});
-    case ExprOp::kElement: return ElementPlace(expr);
-    case ExprOp::kCell: return CellPlace(ir::SpaceId{std::size_t{expr.a}}, expr.b);
-    case ExprOp::kCellAt: return CellPlace(ir::SpaceId{std::size_t{expr.b}}, Number(ExprId{std::size_t{expr.a}}));
-    case ExprOp::kGroup: return PlaceOf(ExprId{std::size_t{expr.a}});
+    case ExprOp::kVariable:
+      return VariablePlace(ir::VariableId{std::size_t{expr.a}});
+    case ExprOp::kElement:
+      return ElementPlace(expr);
+    case ExprOp::kCell:
+      return CellPlace(ir::SpaceId{std::size_t{expr.a}}, expr.b);
+    case ExprOp::kCellAt:
+      return CellPlace(ir::SpaceId{std::size_t{expr.b}}, Number(ExprId{std::size_t{expr.a}}));
+    case ExprOp::kGroup:
+      return PlaceOf(ExprId{std::size_t{expr.a}});
     case ExprOp::kSystem: {
       Place place;
       place.kind = Place::Kind::kSystem;
       place.expr = id;
       return place;
     }
-    case ExprOp::kName: session_.Refuse(diag::Code::kUnknownName, module_.View(StringId{std::size_t{expr.a}})); return {};
-    default: session_.Refuse(diag::Code::kReadOnly, ir::NameOf(expr.op)); return {};
+    case ExprOp::kName:
+      session_.Refuse(diag::Code::kUnknownName, module_.View(StringId{std::size_t{expr.a}}));
+      return {};
+    default:
+      session_.Refuse(diag::Code::kReadOnly, ir::NameOf(expr.op));
+      return {};
   }
 }
 
@@ -138,8 +148,10 @@ Value Evaluator::Load(const Place& place) {
     const std::size_t offset = ops::OffsetOf(text, place.index);
     return Value::Char(offset < text.size() ? ops::CharacterAt(text, offset).code : 0);
   }
-  if (!cell.IsVacant()) [[likely]] return cell;
-  if (place.variable.Valid()) return place.type == Type::kNumber || place.type == Type::kAny ? cell : ZeroOf(place.type);
+  if (!cell.IsVacant()) [[likely]]
+    return cell;
+  if (place.variable.Valid())
+    return place.type == Type::kNumber || place.type == Type::kAny ? cell : ZeroOf(place.type);
   // A cell of a space that holds nothing: never written, or written as vacant.
   if (cell.text == Memory::kWrittenVacant) return Value::Vacant();
   const auto space_at = [&]() -> const ir::Space& {
@@ -155,15 +167,18 @@ Value Evaluator::Load(const Place& place) {
   if (cell.text == Memory::kUntouched && session_.coverage != nullptr && space.visibility != ir::Visibility::kLevel) {
     cell.text = Memory::kReadFirst;
     const auto index = static_cast<std::uint32_t>(&space - module_.spaces.All().data());
-    const std::uint32_t number = place.address - session_.linked.SlotOf(ir::SpaceId{std::size_t{index}}).offset + space.first;
+    const std::uint32_t number =
+        place.address - session_.linked.SlotOf(ir::SpaceId{std::size_t{index}}).offset + space.first;
     session_.coverage->cells_read_before_written.push_back(index << 24U | number);
   }
   switch (space.start) {
-    case ir::StartValue::kVacant: return Value::Vacant();
+    case ir::StartValue::kVacant:
+      return Value::Vacant();
     case ir::StartValue::kUnknown:
       session_.Refuse(diag::Code::kUnsetCell, module_.View(space.name));
       return ZeroOf(space.type);
-    default: return ZeroOf(space.type == Type::kNumber ? Type::kReal : space.type);
+    default:
+      return ZeroOf(space.type == Type::kNumber ? Type::kReal : space.type);
   }
 }
 
@@ -172,17 +187,24 @@ bool Evaluator::WithinLimits(const ir::Variable& variable, const Value& value) {
   const bool low = variable.lower_limit.Valid() && value.number < Number(variable.lower_limit);
   const bool high = variable.upper_limit.Valid() && value.number > Number(variable.upper_limit);
   if (!low && !high) return true;
-  session_.Alarm(ir::AlarmClass::kRange, fmt::format("value of {} is {} its limit", module_.View(variable.name), low ? "below" : "above"));
+  session_.Alarm(ir::AlarmClass::kRange,
+                 fmt::format("value of {} is {} its limit", module_.View(variable.name), low ? "below" : "above"));
   return false;
 }
 
 void Evaluator::Store(const Place& place, const Value& value, std::uint32_t offset) {
   if (session_.halted) return;
   switch (place.kind) {
-    case Place::Kind::kNone: return;
-    case Place::Kind::kSystem: StoreSystem(place, value); return;
-    case Place::Kind::kCharacter: StoreCharacter(place, value); return;
-    case Place::Kind::kCell: break;
+    case Place::Kind::kNone:
+      return;
+    case Place::Kind::kSystem:
+      StoreSystem(place, value);
+      return;
+    case Place::Kind::kCharacter:
+      StoreCharacter(place, value);
+      return;
+    case Place::Kind::kCell:
+      break;
   }
   if (value.IsVacant()) {
     Value vacant;

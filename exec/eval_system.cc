@@ -18,17 +18,28 @@ constexpr std::size_t kMostIndices = 4;
 std::uint8_t IndexOf(const ir::ModalState& modal, ir::WordOp op) {
   using ir::WordOp;
   switch (op) {
-    case WordOp::kMotion: return static_cast<std::uint8_t>(modal.motion);
-    case WordOp::kPlane: return static_cast<std::uint8_t>(modal.plane);
-    case WordOp::kDistance: return static_cast<std::uint8_t>(modal.distance);
-    case WordOp::kUnits: return static_cast<std::uint8_t>(modal.units);
-    case WordOp::kFeedMode: return static_cast<std::uint8_t>(modal.feed_mode);
-    case WordOp::kSpeedMode: return static_cast<std::uint8_t>(modal.speed_mode);
-    case WordOp::kCutterComp: return static_cast<std::uint8_t>(modal.comp);
-    case WordOp::kDiameter: return static_cast<std::uint8_t>(modal.diameter);
-    case WordOp::kPathMode: return static_cast<std::uint8_t>(modal.path);
-    case WordOp::kReturnLevel: return static_cast<std::uint8_t>(modal.return_level);
-    default: return 0;
+    case WordOp::kMotion:
+      return static_cast<std::uint8_t>(modal.motion);
+    case WordOp::kPlane:
+      return static_cast<std::uint8_t>(modal.plane);
+    case WordOp::kDistance:
+      return static_cast<std::uint8_t>(modal.distance);
+    case WordOp::kUnits:
+      return static_cast<std::uint8_t>(modal.units);
+    case WordOp::kFeedMode:
+      return static_cast<std::uint8_t>(modal.feed_mode);
+    case WordOp::kSpeedMode:
+      return static_cast<std::uint8_t>(modal.speed_mode);
+    case WordOp::kCutterComp:
+      return static_cast<std::uint8_t>(modal.comp);
+    case WordOp::kDiameter:
+      return static_cast<std::uint8_t>(modal.diameter);
+    case WordOp::kPathMode:
+      return static_cast<std::uint8_t>(modal.path);
+    case WordOp::kReturnLevel:
+      return static_cast<std::uint8_t>(modal.return_level);
+    default:
+      return 0;
   }
 }
 
@@ -59,27 +70,31 @@ Value Evaluator::EvalSystem(const Expr& expr) {
   for (std::size_t i = 0; i < count; ++i) indices[i] = Eval(module_.Item(expr.b + static_cast<std::uint32_t>(i)));
   if (session_.halted) return ZeroOf(system.type);
   const double first = count > 0 ? ir::ops::Round(indices[0].number) : 0;
-  const bool inch_lengths = channel_.modal.units == ir::Units::kInch || channel_.modal.units == ir::Units::kInchGeometry;
+  const bool inch_lengths =
+      channel_.modal.units == ir::Units::kInch || channel_.modal.units == ir::Units::kInchGeometry;
   const auto unknown = [&] {
     session_.Refuse(diag::Code::kMachineValue, name);
     return ZeroOf(system.type);
   };
   switch (system.kind) {
-    case SystemKind::kPi: return Value::Real(kPi);
+    case SystemKind::kPi:
+      return Value::Real(kPi);
     case SystemKind::kProgrammedPosition: {
       const auto axis = static_cast<std::uint8_t>(first);
       const bool known = first >= 0 && first < ir::kMaxAxes && (channel_.work_known & AxisBit(axis)) != 0 &&
                          (channel_.uncertain & AxisBit(axis)) == 0;
       if (!known) break;  // perhaps the environment knows where the machine stands
       double position = channel_.work[axis];
-      const bool diameter = channel_.modal.diameter == ir::Diameter::kDiameter || channel_.modal.diameter == ir::Diameter::kDiameterAbsolute;
+      const bool diameter = channel_.modal.diameter == ir::Diameter::kDiameter ||
+                            channel_.modal.diameter == ir::Diameter::kDiameterAbsolute;
       if (axis == machine_.transverse_axis && diameter && machine_.position_reads_diameter) position *= 2;
       if (inch_lengths && !ir::IsRotary(axis)) position /= 25.4;
       return Value::Real(position);
     }
     case SystemKind::kActiveFeed: {
       if (!channel_.feed_known) return Value::Real(0);
-      const bool inch_feed = channel_.modal.units == ir::Units::kInch && channel_.feed_mode != ir::FeedMode::kInverseTime;
+      const bool inch_feed =
+          channel_.modal.units == ir::Units::kInch && channel_.feed_mode != ir::FeedMode::kInverseTime;
       return Value::Real(inch_feed ? channel_.feed / 25.4 : channel_.feed);
     }
     case SystemKind::kActiveSpeed: {
@@ -99,7 +114,8 @@ Value Evaluator::EvalSystem(const Expr& expr) {
       if (code.IsVacant()) break;
       return code;
     }
-    case SystemKind::kModalCallActive: return Value::Int(facts_.modal_call ? 1 : 0);
+    case SystemKind::kModalCallActive:
+      return Value::Int(facts_.modal_call ? 1 : 0);
     case SystemKind::kPlaneAxis: {
       if (channel_.modal.plane == ir::Plane::kUnknown) break;
       const PlaneAxes axes = AxesOf(channel_.modal.plane);
@@ -107,13 +123,15 @@ Value Evaluator::EvalSystem(const Expr& expr) {
     }
     case SystemKind::kWasProgrammed:
       return Value::Bool(first >= 1 && first <= 64 && ((facts_.given >> static_cast<unsigned>(first - 1)) & 1U) != 0);
-    case SystemKind::kProgramLevel: return Value::Int(facts_.depth);
+    case SystemKind::kProgramLevel:
+      return Value::Int(facts_.depth);
     case SystemKind::kUserMemory: {
       const auto cell = user_cells_.find(UserKey(expr.a, first));
       return cell != user_cells_.end() ? cell->second : ZeroOf(system.type);  // cleared at reset
     }
     case SystemKind::kEnvironment:
-    case SystemKind::kMachinePosition: break;
+    case SystemKind::kMachinePosition:
+      break;
   }
   const std::optional<Value> answer = session_.environment.Read(system, name, indices, count);
   return answer.has_value() ? *answer : unknown();
@@ -143,7 +161,8 @@ void Evaluator::StoreSystem(const Place& place, const Value& value) {
     session_.Refuse(diag::Code::kReadOnly, name);
     return;
   }
-  if (!session_.environment.Write(system, name, indices, count, value)) session_.Refuse(diag::Code::kMachineValue, name);
+  if (!session_.environment.Write(system, name, indices, count, value))
+    session_.Refuse(diag::Code::kMachineValue, name);
 }
 
 }  // namespace ncport::exec

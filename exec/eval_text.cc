@@ -17,7 +17,8 @@ namespace ops = ir::ops;
 
 Value Evaluator::NewText(std::string_view text) {
   const Value value = texts_.Add(text);
-  if (texts_.Full()) session_.Limit("RunOptions::max_text_bytes", diag::Code::kTextLimit, session_.options.max_text_bytes);
+  if (texts_.Full())
+    session_.Limit("RunOptions::max_text_bytes", diag::Code::kTextLimit, session_.options.max_text_bytes);
   return value;
 }
 
@@ -30,11 +31,20 @@ std::string_view Evaluator::AxisName(std::uint8_t axis) const {
 
 void Evaluator::AppendText(TextBuffer& buffer, const Value& value) {
   switch (value.type) {
-    case Type::kString: buffer.Append(texts_.View(value)); break;
-    case Type::kChar: ops::AppendCharacter(buffer, value.number); break;
-    case Type::kAxis: buffer.Append(AxisName(static_cast<std::uint8_t>(value.number))); break;
-    case Type::kNone: break;
-    default: ops::AppendNumberText(buffer, value.number); break;
+    case Type::kString:
+      buffer.Append(texts_.View(value));
+      break;
+    case Type::kChar:
+      ops::AppendCharacter(buffer, value.number);
+      break;
+    case Type::kAxis:
+      buffer.Append(AxisName(static_cast<std::uint8_t>(value.number)));
+      break;
+    case Type::kNone:
+      break;
+    default:
+      ops::AppendNumberText(buffer, value.number);
+      break;
   }
 }
 
@@ -68,15 +78,21 @@ Value Evaluator::EvalTextFunction(const Expr& expr) {
     return view.empty() ? 0 : ops::CharacterAt(view, 0).code;
   };
   switch (function) {
-    case Function::kStringLength: return position(static_cast<std::int64_t>(ops::Length(text)));
-    case Function::kIndexOf: return position(ops::IndexOf(text, character(args[1])));
-    case Function::kLastIndexOf: return position(ops::LastIndexOf(text, character(args[1])));
-    case Function::kIndexOfAny: return position(ops::IndexOfAny(text, texts_.View(args[1])));
-    case Function::kFind: return position(ops::Find(text, texts_.View(args[1])));
+    case Function::kStringLength:
+      return position(static_cast<std::int64_t>(ops::Length(text)));
+    case Function::kIndexOf:
+      return position(ops::IndexOf(text, character(args[1])));
+    case Function::kLastIndexOf:
+      return position(ops::LastIndexOf(text, character(args[1])));
+    case Function::kIndexOfAny:
+      return position(ops::IndexOfAny(text, texts_.View(args[1])));
+    case Function::kFind:
+      return position(ops::Find(text, texts_.View(args[1])));
     case Function::kSubstring: {
       const double first = std::fmax(0, std::round(ToNumber(args[1])));
       const double length = count > 2 ? std::fmax(0, std::round(ToNumber(args[2]))) : machine_.string_max;
-      const std::string part(ops::Substring(text, static_cast<std::size_t>(std::fmin(first, 1e9)), static_cast<std::size_t>(std::fmin(length, 1e9))));
+      const std::string part(ops::Substring(text, static_cast<std::size_t>(std::fmin(first, 1e9)),
+                                            static_cast<std::size_t>(std::fmin(length, 1e9))));
       return NewText(part);
     }
     case Function::kToUpper:
@@ -90,14 +106,17 @@ Value Evaluator::EvalTextFunction(const Expr& expr) {
       session_.Alarm(number.error);
       return Value::Real(number.value);
     }
-    case Function::kIsNumber: return Value::Bool(ops::ParseNumber(text).Ok());
+    case Function::kIsNumber:
+      return Value::Bool(ops::ParseNumber(text).Ok());
     case Function::kToText: {
       TextBuffer written;
       AppendText(written, args[0]);
       return NewText(written.View());
     }
-    case Function::kIsVariable: return Value::Bool(IsKnownVariable(text));
-    case Function::kAxisToText: return NewText(AxisName(static_cast<std::uint8_t>(args[0].number)));
+    case Function::kIsVariable:
+      return Value::Bool(IsKnownVariable(text));
+    case Function::kAxisToText:
+      return NewText(AxisName(static_cast<std::uint8_t>(args[0].number)));
     case Function::kAxisFromText:
       for (std::uint8_t axis = 0; axis < ir::kMaxAxes; ++axis) {
         if (!text.empty() && ops::SameName(AxisName(axis), text)) return Value::Axis(axis);
@@ -107,7 +126,8 @@ Value Evaluator::EvalTextFunction(const Expr& expr) {
     case Function::kIsAxis: {
       // Geometry axis n, from 1 (sinumerik-4.5).
       const double number = std::round(ToNumber(args[0]));
-      return Value::Bool(number >= 1 && number <= 3 && ((machine_.axes >> static_cast<unsigned>(number - 1)) & 1U) != 0);
+      return Value::Bool(number >= 1 && number <= 3 &&
+                         ((machine_.axes >> static_cast<unsigned>(number - 1)) & 1U) != 0);
     }
     case Function::kParameter: {
       ir::System parameter;
@@ -116,7 +136,8 @@ Value Evaluator::EvalTextFunction(const Expr& expr) {
       session_.Refuse(diag::Code::kMachineValue, "a machine parameter");
       return Value::Real(0);
     }
-    default: NCPORT_BUG("{} is not evaluated", ir::NameOf(function));
+    default:
+      NCPORT_BUG("{} is not evaluated", ir::NameOf(function));
   }
 }
 

@@ -16,27 +16,27 @@ namespace ncport::exec {
 /// What the flow of calls tells about the program that is running.
 struct CallFacts {
   ir::ProgramId program;
-  Memory::Address frame = 0;        // named variables of the program
-  Memory::Address level = 0;        // cells of the call level
-  Memory::Address main_frame = 0;   // of the entry program
+  Memory::Address frame = 0;       // named variables of the program
+  Memory::Address level = 0;       // cells of the call level
+  Memory::Address main_frame = 0;  // of the entry program
   ir::ProgramId main_program;
-  std::uint32_t depth = 0;          // 0 = main program
-  bool modal_call = false;          // one is active
-  std::uint64_t given = 0;          // bit per parameter that the call gave, from 0
+  std::uint32_t depth = 0;  // 0 = main program
+  bool modal_call = false;  // one is active
+  std::uint64_t given = 0;  // bit per parameter that the call gave, from 0
 };
 
 /// A place that can be written.
 struct Place {
   enum class Kind : std::uint8_t { kNone, kCell, kCharacter, kSystem };
   Kind kind = Kind::kNone;
-  ir::Type type = ir::Type::kAny;       // kCell: type that a stored value gets
+  ir::Type type = ir::Type::kAny;  // kCell: type that a stored value gets
   Memory::Address address = 0;
-  std::uint32_t string_length = 0;      // of a STRING; 0 = the machine's longest
-  std::uint32_t index = 0;              // kCharacter
-  ir::VariableId variable;              // for limits and messages
-  ir::ExprId expr;                      // kSystem
-  std::uint32_t room = 1;               // elements from here to the end of the array
-  double cell_max = 0;                  // numbered cells: largest magnitude, 0 = any
+  std::uint32_t string_length = 0;  // of a STRING; 0 = the machine's longest
+  std::uint32_t index = 0;          // kCharacter
+  ir::VariableId variable;          // for limits and messages
+  ir::ExprId expr;                  // kSystem
+  std::uint32_t room = 1;           // elements from here to the end of the array
+  double cell_max = 0;              // numbered cells: largest magnitude, 0 = any
 };
 
 class Evaluator {
@@ -110,7 +110,7 @@ class Evaluator {
   const Channel& channel_;
   const CallFacts& facts_;
 
-  std::unordered_map<std::uint64_t, Value> user_cells_;   // SystemKind::kUserMemory: system << 32 | index
+  std::unordered_map<std::uint64_t, Value> user_cells_;  // SystemKind::kUserMemory: system << 32 | index
 };
 
 }  // namespace ncport::exec

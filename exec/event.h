@@ -12,11 +12,32 @@
 namespace ncport::exec {
 
 enum class EventKind : std::uint8_t {
-  kRapid, kLine, kArc, kThread, kTap, kRapidMachine, kReference, kProbe,
+  kRapid,
+  kLine,
+  kArc,
+  kThread,
+  kTap,
+  kRapidMachine,
+  kReference,
+  kProbe,
   kDwell,
-  kSpindle, kSpindleSpeed, kSpindleSurface, kSpindleLimit, kSpindlePosition,
-  kTool, kOffset, kComp, kWorkOffset, kPath,
-  kAux, kMessage, kPrint, kStop, kOptionalStop, kAlarm, kEnd,
+  kSpindle,
+  kSpindleSpeed,
+  kSpindleSurface,
+  kSpindleLimit,
+  kSpindlePosition,
+  kTool,
+  kOffset,
+  kComp,
+  kWorkOffset,
+  kPath,
+  kAux,
+  kMessage,
+  kPrint,
+  kStop,
+  kOptionalStop,
+  kAlarm,
+  kEnd,
   kSetVariable,
 };
 
@@ -24,7 +45,7 @@ enum class OffsetKind : std::uint8_t { kNumber, kEdge, kLength, kRadius, kNone }
 
 /// Where an event comes from: the block, the calls that lead to it, the turns of the loops around it.
 struct CallFrameView {
-  const ir::BlockId* call_blocks = nullptr;   // outermost first
+  const ir::BlockId* call_blocks = nullptr;  // outermost first
   std::uint32_t depth = 0;
   /// How often call_blocks[i] was reached in its call, from 1; entry [depth]: the block of the event. Null unless
   /// RunOptions::count_turns.
@@ -39,30 +60,30 @@ struct Event {
   ir::PathMode path = ir::PathMode::kExact;
   ir::SpindleState spindle_state = ir::SpindleState::kStop;
   OffsetKind offset = OffsetKind::kNone;
-  bool clockwise = false;          // kArc
-  bool diameter_active = false;    // trace prints Xr
-  bool per_revolution = false;     // kDwell in revolutions
-  bool full_circle = false;        // kArc that ends where it starts
-  bool added = false;              // from a block or word that a pass added
-  std::uint8_t spindle = 0;        // 0 = master
+  bool clockwise = false;               // kArc
+  bool diameter_active = false;         // trace prints Xr
+  bool per_revolution = false;          // kDwell in revolutions
+  bool full_circle = false;             // kArc that ends where it starts
+  bool added = false;                   // from a block or word that a pass added
+  std::uint8_t spindle = 0;             // 0 = master
   std::uint8_t transverse_axis = 0xFF;  // that diameter words hold for; 0xFF = none
-  std::uint16_t known_axes = 0;    // axes programmed so far in this run: written by traces
-  std::uint16_t moved_axes = 0;    // axes that this block names
-  std::uint32_t turns = 0;         // kArc: additional full turns
-  std::uint32_t number = 0;        // tool, offset, M function; work offset number
-  std::uint32_t extension = 0;     // work offset G54.1 P
+  std::uint16_t known_axes = 0;         // axes programmed so far in this run: written by traces
+  std::uint16_t moved_axes = 0;         // axes that this block names
+  std::uint32_t turns = 0;              // kArc: additional full turns
+  std::uint32_t number = 0;             // tool, offset, M function; work offset number
+  std::uint32_t extension = 0;          // work offset G54.1 P
   double position[ir::kMaxAxes] = {};   // end point; kReference: unused
   double from[ir::kMaxAxes] = {};       // start point, where known
-  double center[2] = {};           // in the axis order of the plane
-  double radius = 0;               // kArc
-  double value = 0;                // dwell, speed, lead, start angle see below
-  double feed = 0;                 // kLine, kArc, kProbe
-  double start_angle = 0;          // kThread
-  double change = 0;               // kThread: change of lead per revolution
-  std::string_view text;           // message, print, alarm text, tool name, variable name; valid during the call only
-  std::string_view code;           // alarm code; kSetVariable: the value as text
+  double center[2] = {};                // in the axis order of the plane
+  double radius = 0;                    // kArc
+  double value = 0;                     // dwell, speed, lead, start angle see below
+  double feed = 0;                      // kLine, kArc, kProbe
+  double start_angle = 0;               // kThread
+  double change = 0;                    // kThread: change of lead per revolution
+  std::string_view text;  // message, print, alarm text, tool name, variable name; valid during the call only
+  std::string_view code;  // alarm code; kSetVariable: the value as text
   ir::AlarmClass alarm = ir::AlarmClass::kOther;
-  ir::BlockId block;               // the block that caused it
+  ir::BlockId block;  // the block that caused it
   const CallFrameView* frames = nullptr;
 };
 

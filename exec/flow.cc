@@ -33,11 +33,21 @@ bool Runner::Flow(const ir::Block& block) {
         left = taken && Jump(word.Extra<ir::JumpId>());
         break;
       }
-      case WordOp::kSwitch: left = Switch(word); break;
-      case WordOp::kCall: left = Call(word.Extra<ir::CallId>()); break;
-      case WordOp::kModalCall: left = StartModal(word); break;
-      case WordOp::kRepeatPart: left = RepeatPart(word); break;
-      default: left = Mark(block, word); break;
+      case WordOp::kSwitch:
+        left = Switch(word);
+        break;
+      case WordOp::kCall:
+        left = Call(word.Extra<ir::CallId>());
+        break;
+      case WordOp::kModalCall:
+        left = StartModal(word);
+        break;
+      case WordOp::kRepeatPart:
+        left = RepeatPart(word);
+        break;
+      default:
+        left = Mark(block, word);
+        break;
     }
     if (left || session_.halted) return true;
   }
@@ -45,12 +55,14 @@ bool Runner::Flow(const ir::Block& block) {
 }
 
 /// The target of a jump word; invalid when it is not found, `name` then says what was looked for.
-BlockId Runner::FindTarget(const ir::Target& target, ir::ProgramId program, BlockId from, ir::Search search, std::string& name) {
+BlockId Runner::FindTarget(const ir::Target& target, ir::ProgramId program, BlockId from, ir::Search search,
+                           std::string& name) {
   const ir::Module& module = session_.module;
   const ir::analysis::LabelTable* const labels = session_.linked.LabelsOf(program);
   const std::uint16_t skip = session_.options.skip_levels;
   if (target.kind != ir::TargetKind::kExpression) {
-    name = target.kind == ir::TargetKind::kLabel ? std::string(module.View(target.label)) : fmt::format("N{}", target.number);
+    name = target.kind == ir::TargetKind::kLabel ? std::string(module.View(target.label))
+                                                 : fmt::format("N{}", target.number);
     return labels == nullptr ? BlockId{} : labels->Find(target, from, search, skip);
   }
   const Value value = evaluator_.Eval(target.expr);
@@ -70,7 +82,9 @@ BlockId Runner::FindTarget(const ir::Target& target, ir::ProgramId program, Bloc
   if (found.Valid() || name.empty()) return found;
   const bool main_block = name.front() == ':';
   const std::size_t prefix = main_block || name.front() == 'N' || name.front() == 'n' ? 1 : 0;
-  if (name.size() == prefix || name.size() > prefix + 9 || name.find_first_not_of("0123456789", prefix) != std::string::npos) return {};
+  if (name.size() == prefix || name.size() > prefix + 9 ||
+      name.find_first_not_of("0123456789", prefix) != std::string::npos)
+    return {};
   return number_target(std::stod(name.substr(prefix)), main_block);
 }
 
@@ -93,7 +107,8 @@ bool Runner::Jump(ir::JumpId id) {
 
 /// A jump out of a repeated part ends the repetition: the part cannot come to its end any more.
 bool Runner::JumpTo(BlockId target) {
-  while (levels_.back().kind == LevelKind::kPart && (target.value < levels_.back().begin || target.value >= levels_.back().end)) {
+  while (levels_.back().kind == LevelKind::kPart &&
+         (target.value < levels_.back().begin || target.value >= levels_.back().end)) {
     PopLevel();
     Activate();
   }
@@ -136,15 +151,24 @@ bool Runner::Mark(const ir::Block& block, const Word& word) {
     case WordOp::kWhile:
       if (!truth() && !session_.halted) pc_ = block.link.value + 1;
       return true;
-    case WordOp::kElse: pc_ = block.link.value + 1; return true;   // the branch before it has run
+    case WordOp::kElse:
+      pc_ = block.link.value + 1;
+      return true;  // the branch before it has run
     case WordOp::kUntil:
       if (!truth() && !session_.halted) pc_ = block.link.value + 1;
       return true;
-    case WordOp::kEndWhile: pc_ = block.link.value; return true;   // the condition is looked at again
-    case WordOp::kEndLoop: pc_ = block.link.value + 1; return true;
-    case WordOp::kFor: return CountingLoop(block, true, block.link);
-    case WordOp::kEndFor: return CountingLoop(session_.module.blocks[block.link], false, session_.block);
-    default: return true;   // EndIf, Loop, Repeat: control falls through
+    case WordOp::kEndWhile:
+      pc_ = block.link.value;
+      return true;  // the condition is looked at again
+    case WordOp::kEndLoop:
+      pc_ = block.link.value + 1;
+      return true;
+    case WordOp::kFor:
+      return CountingLoop(block, true, block.link);
+    case WordOp::kEndFor:
+      return CountingLoop(session_.module.blocks[block.link], false, session_.block);
+    default:
+      return true;  // EndIf, Loop, Repeat: control falls through
   }
 }
 
@@ -200,7 +224,9 @@ bool Runner::RepeatPart(const Word& word) {
   const std::uint16_t skip = session_.options.skip_levels;
   const auto found = labels == nullptr ? std::nullopt : labels->FindPart(part, session_.block, skip);
   if (!found.has_value()) {
-    const BlockId first = labels == nullptr ? BlockId{} : labels->Find(part.first, session_.block, ir::Search::kBackwardThenForward, skip);
+    const BlockId first = labels == nullptr
+                              ? BlockId{}
+                              : labels->Find(part.first, session_.block, ir::Search::kBackwardThenForward, skip);
     std::string name(session_.module.View(part.first.label));
     if (first.Valid() && part.has_last) name = session_.module.View(part.last.label);
     session_.Alarm(ir::AlarmClass::kMissingTarget, fmt::format("section {} not found", name));
@@ -244,7 +270,8 @@ void Runner::LastWord(const Word& word) {
       done_ = true;
       return;
     case WordOp::kReturn:
-      if (static_cast<ir::ReturnKind>(word.index) == ir::ReturnKind::kToCaller && word.value.Valid()) return ReturnTo(word.value);
+      if (static_cast<ir::ReturnKind>(word.index) == ir::ReturnKind::kToCaller && word.value.Valid())
+        return ReturnTo(word.value);
       if (!called && session_.machine.return_in_main_restarts && !session_.options.is_call) {
         DropParts();
         pc_ = levels_.back().begin;
@@ -255,7 +282,8 @@ void Runner::LastWord(const Word& word) {
       DropParts();
       pc_ = levels_.back().begin;
       return;
-    default: return;
+    default:
+      return;
   }
 }
 

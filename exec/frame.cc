@@ -180,7 +180,8 @@ PlaneMap MapPlane(const Frame& frame, ir::Plane plane) {
     const double turn = first[base.first] * second[base.second] - first[base.second] * second[base.first];
     const double dot = first[base.first] * second[base.first] + first[base.second] * second[base.second];
     map.mirrored = turn < 0;
-    map.similar = std::fabs(first_length - second_length) <= small && std::fabs(dot) <= small * first_length && turn != 0;
+    map.similar =
+        std::fabs(first_length - second_length) <= small && std::fabs(dot) <= small * first_length && turn != 0;
     break;
   }
   return map;

@@ -17,7 +17,9 @@ class Frame {
   /// True if no axis depends on another one: unprogrammed axes need not be known.
   [[nodiscard]] bool IsDiagonal() const { return diagonal_; }
   [[nodiscard]] double Linear(int row, int column) const { return matrix_[row][column]; }
-  [[nodiscard]] double Factor(std::uint8_t axis) const { return axis < kGeometryAxes ? matrix_[axis][axis] : factor_[axis]; }
+  [[nodiscard]] double Factor(std::uint8_t axis) const {
+    return axis < kGeometryAxes ? matrix_[axis][axis] : factor_[axis];
+  }
   [[nodiscard]] double Shift(std::uint8_t axis) const { return shift_[axis]; }
 
   void Reset() { *this = Frame{}; }
@@ -29,7 +31,8 @@ class Frame {
   /// Moves the map so that `work` of this axis stands where `base` is; the axis must not depend on others.
   void Preset(std::uint8_t axis, double work, double base);
 
-  /// Maps the axes of `known`; returns those of the result that are known (all they depend on was). Others are unchanged.
+  /// Maps the axes of `known`; returns those of the result that are known (all they depend on was). Others are
+  /// unchanged.
   std::uint16_t ToBase(const double* work, std::uint16_t known, double* base) const;
   std::uint16_t ToWork(const double* base, std::uint16_t known, double* work) const;
   /// Axes of the result that depend on any axis of `axes`.
@@ -57,9 +60,12 @@ struct PlaneAxes {
 };
 constexpr PlaneAxes AxesOf(ir::Plane plane) {
   switch (plane) {
-    case ir::Plane::kZX: return {2, 0, 1};
-    case ir::Plane::kYZ: return {1, 2, 0};
-    default: return {0, 1, 2};
+    case ir::Plane::kZX:
+      return {2, 0, 1};
+    case ir::Plane::kYZ:
+      return {1, 2, 0};
+    default:
+      return {0, 1, 2};
   }
 }
 constexpr ir::Plane PlaneWithNormal(std::uint8_t normal) {
@@ -68,11 +74,11 @@ constexpr ir::Plane PlaneWithNormal(std::uint8_t normal) {
 
 /// Where a plane of the workpiece system comes to lie.
 struct PlaneMap {
-  bool parallel = false;   // it is a main plane of the trace coordinates
-  bool similar = false;    // circles stay circles
-  bool mirrored = false;   // clockwise becomes counter-clockwise
+  bool parallel = false;  // it is a main plane of the trace coordinates
+  bool similar = false;   // circles stay circles
+  bool mirrored = false;  // clockwise becomes counter-clockwise
   ir::Plane plane = ir::Plane::kXY;
-  double scale = 1;        // of lengths in the plane
+  double scale = 1;  // of lengths in the plane
 };
 PlaneMap MapPlane(const Frame& frame, ir::Plane plane);
 

@@ -6,8 +6,9 @@ namespace ncport::exec {
 
 using ir::FrameOp;
 
-/// TRANS ROT SCALE MIRROR replace the whole frame, their A-forms add to it (sinumerik-8.7). Several angles of one block act in
-/// a fixed order whatever was written: about Z, then the new Y, then the new X; else Z, X, Z is the order of the machine.
+/// TRANS ROT SCALE MIRROR replace the whole frame, their A-forms add to it (sinumerik-8.7). Several angles of one block
+/// act in a fixed order whatever was written: about Z, then the new Y, then the new X; else Z, X, Z is the order of the
+/// machine.
 void Kinematics::ApplyFrame(const BlockWork& work) {
   Frame& frame = channel_.frame;
   const bool additive = work.frame >= FrameOp::kAddTranslate && work.frame <= FrameOp::kAddMirror;
@@ -39,12 +40,16 @@ void Kinematics::ApplyFrame(const BlockWork& work) {
         frame.AddScale(axis, value);
         break;
       case FrameOp::kMirror:
-      case FrameOp::kAddMirror: frame.AddMirror(axis); break;
-      default: break;
+      case FrameOp::kAddMirror:
+        frame.AddMirror(axis);
+        break;
+      default:
+        break;
     }
   }
   if (work.frame == FrameOp::kRotate || work.frame == FrameOp::kAddRotate) {
-    if ((work.axes & ~7U) != 0) return session_.Refuse(diag::Code::kCannotRun, "a rotation about an axis that is not X, Y or Z");
+    if ((work.axes & ~7U) != 0)
+      return session_.Refuse(diag::Code::kCannotRun, "a rotation about an axis that is not X, Y or Z");
     const auto angle = [&](std::uint8_t axis) { return (work.axes & AxisBit(axis)) != 0 ? work.axis[axis] : 0.0; };
     const int count = (angle(0) != 0 ? 1 : 0) + (angle(1) != 0 ? 1 : 0) + (angle(2) != 0 ? 1 : 0);
     if (!session_.machine.rotation_order_rpy && count > 1) {
@@ -69,8 +74,8 @@ void Kinematics::FrameChanged() {
   ShowComp();
 }
 
-/// G110 from the last position, G111 from the workpiece zero, G112 from the last pole (sinumerik-8.6). The distance mode
-/// does not change the coordinates of a pole.
+/// G110 from the last position, G111 from the workpiece zero, G112 from the last pole (sinumerik-8.6). The distance
+/// mode does not change the coordinates of a pole.
 void Kinematics::SetPole(const BlockWork& work) {
   if (Unknown(channel_.modal.plane == ir::Plane::kUnknown, "the plane")) return;
   const PlaneAxes axes = AxesOf(channel_.modal.plane);
@@ -89,10 +94,13 @@ void Kinematics::SetPole(const BlockWork& work) {
     base.v += radius * ir::ops::Sin(angle);
   } else {
     const std::uint8_t transverse = session_.machine.transverse_axis;
-    if (transverse < ir::kMaxAxes && (work.axes & AxisBit(transverse)) != 0 && TransverseInDiameter(ir::ValueMode::kAbsolute, false)) {
+    if (transverse < ir::kMaxAxes && (work.axes & AxisBit(transverse)) != 0 &&
+        TransverseInDiameter(ir::ValueMode::kAbsolute, false)) {
       return session_.Refuse(diag::Code::kCannotRun, "a pole in an axis that is programmed as diameter");
     }
-    const auto coordinate = [&](std::uint8_t axis) { return (work.axes & AxisBit(axis)) != 0 ? work.axis[axis] * factor : 0.0; };
+    const auto coordinate = [&](std::uint8_t axis) {
+      return (work.axes & AxisBit(axis)) != 0 ? work.axis[axis] * factor : 0.0;
+    };
     base.u += coordinate(axes.first);
     base.v += coordinate(axes.second);
   }
@@ -101,7 +109,8 @@ void Kinematics::SetPole(const BlockWork& work) {
   channel_.polar_angle_known = false;  // the angle is kept until a new pole, the radius until a new value
 }
 
-/// The present position gets new values: the zero point moves. Where the position is unknown the values are taken as they are.
+/// The present position gets new values: the zero point moves. Where the position is unknown the values are taken as
+/// they are.
 void Kinematics::Preset(const BlockWork& work) {
   if (!channel_.frame.IsDiagonal()) return session_.Refuse(diag::Code::kCannotRun, "new axis values under a rotation");
   for (std::uint8_t axis = 0; axis < ir::kMaxAxes; ++axis) {

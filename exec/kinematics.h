@@ -40,10 +40,11 @@ class Kinematics {
   void SetPath(ir::PathMode mode);
   void SetFeed(const BlockWork& work);
   void ShowComp();
-  [[nodiscard]] double LengthFactor() const;       // of lengths as programmed, to mm
-  [[nodiscard]] double FeedFactor() const;         // of feeds
+  [[nodiscard]] double LengthFactor() const;  // of lengths as programmed, to mm
+  [[nodiscard]] double FeedFactor() const;    // of feeds
   bool Unknown(bool unknown, std::string_view what) {
-    if (unknown) [[unlikely]] RefuseUnknown(what);
+    if (unknown) [[unlikely]]
+      RefuseUnknown(what);
     return unknown;
   }
   void RefuseUnknown(std::string_view what);
@@ -60,7 +61,7 @@ class Kinematics {
   bool Target(const BlockWork& work, std::uint8_t axis);
   bool ResolvePolar(const BlockWork& work);
   bool ResolveAngle(const BlockWork& work);
-  void Adopt();                                    // target_ becomes the position
+  void Adopt();  // target_ becomes the position
   bool Known(std::uint8_t axis, std::string_view why);
   bool FeedReady(const BlockWork& work);
   Event& MotionEvent(EventKind kind);
@@ -77,7 +78,8 @@ class Kinematics {
   bool Center(const BlockWork& work, const PlaneAxes& axes, Point& center);
   double CenterCoordinate(std::uint8_t axis, double value, ir::ValueMode mode) const;
   bool ArcTrouble(const Arc& arc);
-  void SendArc(const BlockWork& work, ir::Plane base_plane, Point base_center, bool clockwise, double radius, bool full);
+  void SendArc(const BlockWork& work, ir::Plane base_plane, Point base_center, bool clockwise, double radius,
+               bool full);
 
   // special_moves.cc
   bool Thread(const BlockWork& work, ir::Motion motion);
@@ -94,11 +96,11 @@ class Kinematics {
   Contour contour_;
 
   // Of the block in work.
-  double target_[ir::kMaxAxes] = {};     // workpiece coordinates of `moved_`
-  double from_[ir::kMaxAxes] = {};       // trace position before the block
+  double target_[ir::kMaxAxes] = {};  // workpiece coordinates of `moved_`
+  double from_[ir::kMaxAxes] = {};    // trace position before the block
   std::uint16_t from_known_ = 0;
-  std::uint16_t moved_ = 0;              // axes that the block names, workpiece coordinates
-  std::uint16_t reached_ = 0;            // the same in trace coordinates
+  std::uint16_t moved_ = 0;    // axes that the block names, workpiece coordinates
+  std::uint16_t reached_ = 0;  // the same in trace coordinates
 
   // A straight line of which only the angle is known yet (two-block contours).
   struct Open {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-
 namespace ncport::exec {
 namespace {
 
@@ -42,7 +41,8 @@ void Linked::LayOutVariables() {
     const ir::Variable& variable = module.variables[id];
     VariableSlot slot;
     slot.count = Elements(variable);
-    const bool owned = variable.owner.Valid() && variable.scope != ir::Scope::kChannel && variable.scope != ir::Scope::kGlobal;
+    const bool owned =
+        variable.owner.Valid() && variable.scope != ir::Scope::kChannel && variable.scope != ir::Scope::kGlobal;
     slot.in_frame = owned;
     std::vector<Value>& cells = owned ? frames_[variable.owner.value] : fixed_values_;
     slot.offset = static_cast<std::uint32_t>(cells.size());
@@ -53,7 +53,8 @@ void Linked::LayOutVariables() {
       continue;
     }
     // A reference takes one cell, which holds the address of what the caller passed.
-    cells.insert(cells.end(), variable.by_reference ? 1 : slot.count, variable.by_reference ? Value::Vacant() : ZeroOf(variable.type));
+    cells.insert(cells.end(), variable.by_reference ? 1 : slot.count,
+                 variable.by_reference ? Value::Vacant() : ZeroOf(variable.type));
     variable_slots_.push_back(slot);
   }
   for_slots_.assign(module.fors.Size(), 0);
@@ -72,7 +73,8 @@ void Linked::LayOutVariables() {
   fixed_cells_ = fixed_oversized != 0 ? kOversized : static_cast<std::uint32_t>(fixed_values_.size());
   for (const ir::SpaceId id : module.spaces.Ids()) {
     const ir::Space& space = module.spaces[id];
-    if (space.visibility == ir::Visibility::kLevel) level_cells_ = SaturatingAdd(level_cells_, space.last - space.first + 1);
+    if (space.visibility == ir::Visibility::kLevel)
+      level_cells_ = SaturatingAdd(level_cells_, space.last - space.first + 1);
   }
   if (modal_calls) {
     std::size_t largest = 0;
@@ -111,8 +113,11 @@ void Linked::ClassifyBlocks() {
       if (child < id.value) depth = std::max(depth, depths[child]);
     };
     switch (ir::OperandsOf(expr.op)) {
-      case ir::Operands::kLeaf: break;
-      case ir::Operands::kUnary: take(expr.a); break;
+      case ir::Operands::kLeaf:
+        break;
+      case ir::Operands::kUnary:
+        take(expr.a);
+        break;
       case ir::Operands::kBinary:
         take(expr.a);
         take(expr.b);
@@ -165,7 +170,8 @@ ir::ProgramId Linked::ProgramOf(BlockId block) const {
 
 void Linked::IndexTargets() {
   const ir::Module& module = *module_;
-  // A plain program jumps nowhere and may have a million numbered blocks: tables are made where something looks into them.
+  // A plain program jumps nowhere and may have a million numbered blocks: tables are made where something looks into
+  // them.
   labels_.resize(module.programs.Size());
   bool all = false;
   std::vector<bool> wanted(module.programs.Size(), false);
@@ -177,15 +183,20 @@ void Linked::IndexTargets() {
         switch (word.op) {
           case ir::WordOp::kJump:
           case ir::WordOp::kSwitch:
-          case ir::WordOp::kRepeatPart: wanted[id.value] = true; break;
+          case ir::WordOp::kRepeatPart:
+            wanted[id.value] = true;
+            break;
           case ir::WordOp::kReturn:
             if (static_cast<ir::ReturnKind>(word.index) == ir::ReturnKind::kToCaller) all = true;
             break;
           case ir::WordOp::kCall:
           case ir::WordOp::kModalCall:
-            if (word.extra != ir::CallId::kNone && module.calls[word.Extra<ir::CallId>()].form == ir::CallForm::kBlockRange) all = true;
+            if (word.extra != ir::CallId::kNone &&
+                module.calls[word.Extra<ir::CallId>()].form == ir::CallForm::kBlockRange)
+              all = true;
             break;
-          default: break;
+          default:
+            break;
         }
       }
     }
@@ -204,7 +215,8 @@ void Linked::ResolveJumps(ir::ProgramId program) {
   const ir::Module& module = *module_;
   const auto resolve = [&](ir::JumpId id, BlockId from) {
     const ir::Jump& jump = module.jumps[id];
-    if (jump.target.kind != ir::TargetKind::kExpression) static_targets_[id.value] = LabelsOf(program)->Find(jump.target, from, jump.search);
+    if (jump.target.kind != ir::TargetKind::kExpression)
+      static_targets_[id.value] = LabelsOf(program)->Find(jump.target, from, jump.search);
   };
   for (const BlockId block : module.programs[program].blocks) {
     if ((uses_[block.value] & kUseFlow) == 0) continue;

@@ -17,7 +17,7 @@ namespace ncport::exec {
 struct VariableSlot {
   bool in_frame = false;
   std::uint32_t offset = 0;
-  std::uint32_t count = 1;      // elements
+  std::uint32_t count = 1;  // elements
 };
 
 /// Cells of a numbered space: at a fixed address, or at an offset in the cells of a call level.
@@ -28,16 +28,16 @@ struct SpaceSlot {
 
 /// What a block needs from the evaluator, so that the loop skips what is not there.
 enum BlockUse : std::uint16_t {
-  kUseImmediate = 1U << 0U,   // phases that occur: bit = 1 << Phase
+  kUseImmediate = 1U << 0U,  // phases that occur: bit = 1 << Phase
   kUseSetting = 1U << 1U,
   kUseBefore = 1U << 2U,
   kUseMotion = 1U << 3U,
   kUseAfter = 1U << 4U,
   kUseFlow = 1U << 5U,
   kUseLast = 1U << 6U,
-  kUseMark = 1U << 7U,        // a structure mark stands in it
-  kUseRefused = 1U << 8U,     // never executed: finding
-  kUseTooDeep = 1U << 9U,     // an expression nested beyond what is evaluated
+  kUseMark = 1U << 7U,     // a structure mark stands in it
+  kUseRefused = 1U << 8U,  // never executed: finding
+  kUseTooDeep = 1U << 9U,  // an expression nested beyond what is evaluated
 };
 
 class Linked {
@@ -62,14 +62,17 @@ class Linked {
   /// A fresh frame of a program, and the fixed named cells: zeros of their types.
   [[nodiscard]] std::span<const Value> FrameOf(ir::ProgramId program) const { return frames_[program.value]; }
   [[nodiscard]] std::span<const Value> FixedValues() const { return fixed_values_; }
-  /// Fixed cells for the frame of a modal subprogram, which outlives the call: one place more than may be active at once.
+  /// Fixed cells for the frame of a modal subprogram, which outlives the call: one place more than may be active at
+  /// once.
   [[nodiscard]] std::uint32_t ModalPlaces() const { return modal_places_; }
   [[nodiscard]] std::uint32_t ModalPlace(std::uint32_t index) const { return modal_offset_ + index * modal_size_; }
   [[nodiscard]] std::uint32_t LargestBlock() const { return largest_block_; }
   [[nodiscard]] ir::ProgramId ProgramOf(ir::BlockId block) const;
 
   /// Labels and numbers of a program; null for programs that no jump, range or return looks into.
-  [[nodiscard]] const ir::analysis::LabelTable* LabelsOf(ir::ProgramId program) const { return labels_[program.value].get(); }
+  [[nodiscard]] const ir::analysis::LabelTable* LabelsOf(ir::ProgramId program) const {
+    return labels_[program.value].get();
+  }
   /// The target of a jump as seen from its block with no skip level on, found when linking. Invalid: none, or computed.
   [[nodiscard]] ir::BlockId StaticTarget(ir::JumpId jump) const { return static_targets_[jump.value]; }
 
@@ -85,10 +88,10 @@ class Linked {
   std::vector<VariableSlot> variable_slots_;
   std::vector<SpaceSlot> space_slots_;
   std::vector<std::uint32_t> for_slots_;
-  std::vector<std::vector<Value>> frames_;     // per program
-  std::vector<std::uint8_t> oversized_;        // per program: frame beyond every budget
+  std::vector<std::vector<Value>> frames_;  // per program
+  std::vector<std::uint8_t> oversized_;     // per program: frame beyond every budget
   std::vector<Value> fixed_values_;
-  std::vector<std::uint32_t> program_of_;      // per block; only when several programs
+  std::vector<std::uint32_t> program_of_;                          // per block; only when several programs
   std::vector<std::unique_ptr<ir::analysis::LabelTable>> labels_;  // per program
   std::vector<ir::BlockId> static_targets_;
   std::uint32_t level_cells_ = 0;
@@ -101,7 +104,7 @@ class Linked {
 };
 
 /// Runs `options.entry` of a linked module. All state is in this call: runs may stand in several threads.
-RunResult Run(const Linked& linked, const RunOptions& options, Environment& environment, EventSink& events, diag::Sink& sink,
-              Coverage* coverage = nullptr);
+RunResult Run(const Linked& linked, const RunOptions& options, Environment& environment, EventSink& events,
+              diag::Sink& sink, Coverage* coverage = nullptr);
 
 }  // namespace ncport::exec

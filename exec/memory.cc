@@ -4,8 +4,8 @@
 
 namespace ncport::exec {
 
-// calloc gives zeroed pages that cost nothing until they are touched: a space of 100,000 cells is free for a program that uses
-// ten of them, and a vacant untouched Value is all zero bits.
+// calloc gives zeroed pages that cost nothing until they are touched: a space of 100,000 cells is free for a program
+// that uses ten of them, and a vacant untouched Value is all zero bits.
 static_assert(static_cast<int>(ir::Type::kNone) == 0);
 static_assert(std::is_trivially_copyable_v<Value>);
 

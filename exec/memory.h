@@ -1,5 +1,5 @@
-// The variables of one run in one address space: channel variables and cells of spaces at the bottom, the frames of the calls
-// on top. An address is an index, so that by-reference parameters are numbers too.
+// The variables of one run in one address space: channel variables and cells of spaces at the bottom, the frames of the
+// calls on top. An address is an index, so that by-reference parameters are numbers too.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +39,7 @@ class Memory {
   // A vacant cell remembers what happened to it in Value::text.
   static constexpr std::uint32_t kUntouched = 0;
   static constexpr std::uint32_t kWrittenVacant = 1;
-  static constexpr std::uint32_t kReadFirst = 2;   // read before it was written
+  static constexpr std::uint32_t kReadFirst = 2;  // read before it was written
 
  private:
   struct Free {

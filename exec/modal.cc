@@ -55,21 +55,38 @@ void Kinematics::Set(const ir::Word& word, double extension, BlockWork& work) {
       ShowComp();
       break;
     }
-    case WordOp::kDistance: modal.distance = static_cast<ir::Distance>(word.index); break;
-    case WordOp::kUnits: modal.units = static_cast<ir::Units>(word.index); break;
-    case WordOp::kFeedMode: SetFeedMode(static_cast<ir::FeedMode>(word.index)); break;
-    case WordOp::kSpeedMode: SetSpeedMode(word, work); break;
-    case WordOp::kCutterComp: modal.comp = static_cast<ir::CutterComp>(word.index); break;
-    case WordOp::kDiameter: modal.diameter = static_cast<ir::Diameter>(word.index); break;
-    case WordOp::kPathMode: SetPath(static_cast<ir::PathMode>(word.index)); break;
-    case WordOp::kReturnLevel: modal.return_level = static_cast<ir::ReturnLevel>(word.index); break;
+    case WordOp::kDistance:
+      modal.distance = static_cast<ir::Distance>(word.index);
+      break;
+    case WordOp::kUnits:
+      modal.units = static_cast<ir::Units>(word.index);
+      break;
+    case WordOp::kFeedMode:
+      SetFeedMode(static_cast<ir::FeedMode>(word.index));
+      break;
+    case WordOp::kSpeedMode:
+      SetSpeedMode(word, work);
+      break;
+    case WordOp::kCutterComp:
+      modal.comp = static_cast<ir::CutterComp>(word.index);
+      break;
+    case WordOp::kDiameter:
+      modal.diameter = static_cast<ir::Diameter>(word.index);
+      break;
+    case WordOp::kPathMode:
+      SetPath(static_cast<ir::PathMode>(word.index));
+      break;
+    case WordOp::kReturnLevel:
+      modal.return_level = static_cast<ir::ReturnLevel>(word.index);
+      break;
     case WordOp::kWorkOffset: {
       const bool extended = extension >= 0;
       SetWorkOffset({true, static_cast<std::uint16_t>(word.extra == Id<void>::kNone ? 0 : word.extra),
                      static_cast<std::uint16_t>(extended ? extension : 0)});
       break;
     }
-    default: break;
+    default:
+      break;
   }
 }
 
@@ -79,15 +96,16 @@ void Kinematics::SetFeedMode(ir::FeedMode mode) {
   if (session_.machine.feed_type_change_drops_feed) channel_.feed_known = false;
 }
 
-/// Constant surface speed may bring the feed per revolution with it; a word that freezes the speed turns the surface speed of
-/// this moment into 1/min (sinumerik-8.8).
+/// Constant surface speed may bring the feed per revolution with it; a word that freezes the speed turns the surface
+/// speed of this moment into 1/min (sinumerik-8.8).
 void Kinematics::SetSpeedMode(const ir::Word& word, const BlockWork& work) {
   const auto mode = static_cast<ir::SpeedMode>(word.index);
   const bool was_surface = channel_.modal.speed_mode == ir::SpeedMode::kConstantSurface;
   channel_.modal.speed_mode = mode;
   if (mode == ir::SpeedMode::kConstantSurface) {
     if (!was_surface) channel_.spindles[0].speed_known = false;
-    if (session_.machine.surface_speed_per_revolution && !work.Has(BlockWork::kFeedMode)) SetFeedMode(ir::FeedMode::kPerRevolution);
+    if (session_.machine.surface_speed_per_revolution && !work.Has(BlockWork::kFeedMode))
+      SetFeedMode(ir::FeedMode::kPerRevolution);
     return;
   }
   Channel::Spindle& spindle = channel_.spindles[0];
@@ -97,7 +115,8 @@ void Kinematics::SetSpeedMode(const ir::Word& word, const BlockWork& work) {
     return;
   }
   const std::uint8_t transverse = session_.machine.transverse_axis;
-  const bool known = transverse < ir::kMaxAxes && (channel_.base_known & ~channel_.uncertain & AxisBit(transverse)) != 0 &&
+  const bool known = transverse < ir::kMaxAxes &&
+                     (channel_.base_known & ~channel_.uncertain & AxisBit(transverse)) != 0 &&
                      channel_.base[transverse] != 0;
   if (!known) {
     session_.Refuse(diag::Code::kCannotRun, "the surface speed is frozen where the diameter is not known");
@@ -174,7 +193,8 @@ void Kinematics::Restore(const ir::ModalState& modal, const Frame& frame) {
   channel_.frame = frame;
   FrameChanged();
   const ir::ModalState now = channel_.modal;
-  if (now.feed_mode != modal.feed_mode) channel_.feed_known = channel_.feed_known && channel_.feed_mode == modal.feed_mode;
+  if (now.feed_mode != modal.feed_mode)
+    channel_.feed_known = channel_.feed_known && channel_.feed_mode == modal.feed_mode;
   if (modal.work_offset.known) SetWorkOffset(modal.work_offset);
   if (modal.path != ir::PathMode::kUnknown) SetPath(modal.path);
   channel_.modal = modal;

@@ -14,11 +14,13 @@ using ir::ValueMode;
 namespace {
 
 constexpr bool IsIncremental(ValueMode mode) {
-  return mode == ValueMode::kIncremental || mode == ValueMode::kIncrementalDiameter || mode == ValueMode::kIncrementalRadius ||
-         mode == ValueMode::kStep;
+  return mode == ValueMode::kIncremental || mode == ValueMode::kIncrementalDiameter ||
+         mode == ValueMode::kIncrementalRadius || mode == ValueMode::kStep;
 }
 
-constexpr bool NeedsFeed(EventKind kind) { return kind == EventKind::kLine || kind == EventKind::kArc || kind == EventKind::kProbe; }
+constexpr bool NeedsFeed(EventKind kind) {
+  return kind == EventKind::kLine || kind == EventKind::kArc || kind == EventKind::kProbe;
+}
 
 }  // namespace
 
@@ -57,30 +59,45 @@ bool Kinematics::MoveByMode(const BlockWork& work) {
   if (work.Has(BlockWork::kMachineCoords)) return MachineMove(work);
   if (open_.active) return CloseAngle(work);
   const bool takes_center = (motion >= Motion::kArcCw && motion <= Motion::kTapOut) || motion == Motion::kUnknown;
-  if (!takes_center && (work.centers != 0 || work.vias != 0 || work.Has(BlockWork::kRadius | BlockWork::kOpening | BlockWork::kTurns))) {
+  if (!takes_center &&
+      (work.centers != 0 || work.vias != 0 || work.Has(BlockWork::kRadius | BlockWork::kOpening | BlockWork::kTurns))) {
     session_.Refuse(diag::Code::kCannotRun, "words of an arc while no arc is in force");
     return false;
   }
   if (!ResolveTargets(work)) return false;
   switch (motion) {
-    case Motion::kUnknown: return !Unknown(true, "the kind of motion");
-    case Motion::kNone: session_.Refuse(diag::Code::kCannotRun, "axis words while no kind of motion is in force"); return false;
-    case Motion::kRapid: Line(work, EventKind::kRapid); return true;
+    case Motion::kUnknown:
+      return !Unknown(true, "the kind of motion");
+    case Motion::kNone:
+      session_.Refuse(diag::Code::kCannotRun, "axis words while no kind of motion is in force");
+      return false;
+    case Motion::kRapid:
+      Line(work, EventKind::kRapid);
+      return true;
     case Motion::kLinear:
     case Motion::kTapFloating:
       if (work.Has(BlockWork::kContourAngle) && !ResolveAngle(work)) return open_.active;
       Line(work, EventKind::kLine);
       return true;
-    case Motion::kProbe: Line(work, EventKind::kProbe); return true;
+    case Motion::kProbe:
+      Line(work, EventKind::kProbe);
+      return true;
     case Motion::kArcCw:
-    case Motion::kArcCcw: ArcMove(work, motion == Motion::kArcCw); return true;
-    case Motion::kArcVia: ArcVia(work); return true;
-    case Motion::kArcTangent: ArcTangent(work); return true;
+    case Motion::kArcCcw:
+      ArcMove(work, motion == Motion::kArcCw);
+      return true;
+    case Motion::kArcVia:
+      ArcVia(work);
+      return true;
+    case Motion::kArcTangent:
+      ArcTangent(work);
+      return true;
     case Motion::kThread:
     case Motion::kThreadIncreasing:
     case Motion::kThreadDecreasing:
     case Motion::kTapIn:
-    case Motion::kTapOut: return Thread(work, motion);
+    case Motion::kTapOut:
+      return Thread(work, motion);
   }
   return false;
 }
@@ -89,11 +106,14 @@ bool Kinematics::MoveByMode(const BlockWork& work) {
 bool Kinematics::TransverseInDiameter(ValueMode mode, bool incremental) const {
   switch (mode) {
     case ValueMode::kAbsoluteDiameter:
-    case ValueMode::kIncrementalDiameter: return true;
+    case ValueMode::kIncrementalDiameter:
+      return true;
     case ValueMode::kAbsoluteRadius:
     case ValueMode::kIncrementalRadius:
-    case ValueMode::kStep: return false;
-    default: break;
+    case ValueMode::kStep:
+      return false;
+    default:
+      break;
   }
   const ir::Diameter diameter = channel_.modal.diameter;
   return diameter == ir::Diameter::kDiameter || (diameter == ir::Diameter::kDiameterAbsolute && !incremental);
@@ -105,7 +125,8 @@ bool Kinematics::Known(std::uint8_t axis, std::string_view why) {
   if (why == "increment") {
     session_.Refuse(diag::Code::kUnknownPosition, NameOf(axis));
   } else {
-    session_.Refuse(diag::Code::kCannotRun, fmt::format("{} needs the position of {}, which is not known", why, NameOf(axis)));
+    session_.Refuse(diag::Code::kCannotRun,
+                    fmt::format("{} needs the position of {}, which is not known", why, NameOf(axis)));
   }
   return false;
 }
@@ -115,16 +136,19 @@ bool Kinematics::Target(const BlockWork& work, std::uint8_t axis) {
   const ValueMode mode = work.axis_mode[axis];
   const ir::ModalState& modal = channel_.modal;
   double value = work.axis[axis];
-  if (mode == ValueMode::kModal && Unknown(modal.distance == ir::Distance::kUnknown, "absolute or incremental")) return false;
-  const bool incremental = mode == ValueMode::kModal ? modal.distance == ir::Distance::kIncremental : IsIncremental(mode);
+  if (mode == ValueMode::kModal && Unknown(modal.distance == ir::Distance::kUnknown, "absolute or incremental"))
+    return false;
+  const bool incremental =
+      mode == ValueMode::kModal ? modal.distance == ir::Distance::kIncremental : IsIncremental(mode);
   const bool rotary = ir::IsRotary(axis);
   if (!rotary && Unknown(modal.units == ir::Units::kUnknown, "the unit of lengths")) return false;
   const double factor = rotary ? 1 : LengthFactor();
 
   if ((work.rounded & AxisBit(axis)) != 0 && session_.machine.word_error != ir::WordError::kNone) {
-    const double increment = factor == 1 ? session_.machine.increment : session_.machine.increment / 10;  // 0.001 mm, 0.0001 inch
+    const double increment =
+        factor == 1 ? session_.machine.increment : session_.machine.increment / 10;  // 0.001 mm, 0.0001 inch
     value = session_.machine.word_error == ir::WordError::kRound ? ir::ops::RoundToIncrement(value, increment)
-                                                                : ir::ops::TruncateToIncrement(value, increment);
+                                                                 : ir::ops::TruncateToIncrement(value, increment);
   }
   if (rotary && (mode == ValueMode::kPositive || mode == ValueMode::kNegative) && !(value >= 0 && value < 360)) {
     session_.Alarm(ir::AlarmClass::kRange, "rotary position outside 0 to 359.999");
@@ -213,7 +237,9 @@ void Kinematics::Adopt() {
     for (std::uint8_t axis = 0; axis < ir::kMaxAxes; ++axis) {
       if ((reached_ & AxisBit(axis)) == 0) continue;
       if ((known & AxisBit(axis)) == 0) {
-        session_.Refuse(diag::Code::kCannotRun, fmt::format("under this frame {} depends on an axis whose position is not known", NameOf(axis)));
+        session_.Refuse(
+            diag::Code::kCannotRun,
+            fmt::format("under this frame {} depends on an axis whose position is not known", NameOf(axis)));
         return;
       }
       channel_.base[axis] = base[axis];

@@ -1,5 +1,5 @@
-// The loop and the phases of a block: values and assignments from left to right, settings, functions before the motion, the
-// motion, functions behind it, jumps and calls, the end.
+// The loop and the phases of a block: values and assignments from left to right, settings, functions before the motion,
+// the motion, functions behind it, jumps and calls, the end.
 #include "exec/run.h"
 
 #include <algorithm>
@@ -16,8 +16,8 @@ using ir::Word;
 using ir::WordId;
 using ir::WordOp;
 
-RunResult Run(const Linked& linked, const RunOptions& options, Environment& environment, EventSink& events, diag::Sink& sink,
-              Coverage* coverage) {
+RunResult Run(const Linked& linked, const RunOptions& options, Environment& environment, EventSink& events,
+              diag::Sink& sink, Coverage* coverage) {
   return Runner(linked, options, environment, events, sink, coverage).Run();
 }
 
@@ -27,11 +27,14 @@ RunResult Run(const ir::Module& module, const ir::Machine& machine, const RunOpt
   return Run(linked, options, environment, events, sink, coverage);
 }
 
-Runner::Runner(const Linked& linked, const RunOptions& options, Environment& environment, EventSink& events, diag::Sink& sink,
-               Coverage* coverage)
-    : session_(linked, options, environment, sink, coverage), texts_(linked.module().strings, options.max_text_bytes),
-      memory_(linked.FixedCells(), options.max_cells), evaluator_(session_, memory_, texts_, channel_, facts_),
-      emitter_(session_, channel_, events), kinematics_(session_, channel_, emitter_, evaluator_),
+Runner::Runner(const Linked& linked, const RunOptions& options, Environment& environment, EventSink& events,
+               diag::Sink& sink, Coverage* coverage)
+    : session_(linked, options, environment, sink, coverage),
+      texts_(linked.module().strings, options.max_text_bytes),
+      memory_(linked.FixedCells(), options.max_cells),
+      evaluator_(session_, memory_, texts_, channel_, facts_),
+      emitter_(session_, channel_, events),
+      kinematics_(session_, channel_, emitter_, evaluator_),
       auxiliary_(session_, channel_, emitter_, evaluator_) {}
 
 bool Runner::Prepare() {
@@ -51,7 +54,8 @@ bool Runner::Prepare() {
   channel_.base_known = static_cast<std::uint16_t>(machine.position_known ? machine.axes : 0);
   std::ranges::copy(machine.start_position, channel_.base);
   if (options.start_position_known) {
-    const bool diameter = machine.start.diameter == ir::Diameter::kDiameter || machine.start.diameter == ir::Diameter::kDiameterAbsolute;
+    const bool diameter =
+        machine.start.diameter == ir::Diameter::kDiameter || machine.start.diameter == ir::Diameter::kDiameterAbsolute;
     channel_.base_known |= options.start_axes;
     for (std::uint8_t axis = 0; axis < ir::kMaxAxes; ++axis) {
       if ((options.start_axes & AxisBit(axis)) == 0) continue;
@@ -158,155 +162,6 @@ void Runner::ExecuteBlock(std::uint32_t index, std::uint16_t use) {
   if ((use & kUseLast) != 0 || !computed_.empty()) Last(block, words_end_);
 }
 
-/// Values of all words in source order. Assignments and messages act at once.
-void Runner::Gather(const ir::Block& block) {
-  const ir::Module& module = session_.module;
-  for (std::uint32_t index = block.words.begin; index < words_end_; ++index) {
-    const Word& word = module.words[WordId{std::size_t{index}}];
-    if (word.phase == Phase::kFlow || word.phase == Phase::kLast) continue;
-    session_.word = &word;
-    Value value;
-    if (word.value.Valid()) {
-      const ir::Expr& expr = module.exprs[word.value];
-      value = expr.op == ir::ExprOp::kLiteral ? Evaluator::LiteralOf(expr) : evaluator_.Eval(word.value);
-      if (session_.halted) return;
-      if (value.IsVacant() && (word.flags & Word::kVanishesVacant) != 0) {
-        values_[index - block.words.begin] = value;
-        continue;
-      }
-    }
-    switch (word.op) {
-      case WordOp::kAssign: Assign(word, value); break;
-      case WordOp::kAssignList: AssignList(word.Extra<ir::AssignListId>()); break;
-      case WordOp::kDefine: Define(word.Extra<ir::VariableId>()); break;
-      case WordOp::kMessage:
-      case WordOp::kPrint:
-      case WordOp::kAlarm: auxiliary_.Message(word, value); break;
-      case WordOp::kWhen: {
-        const bool holds = evaluator_.ToTruth(value);
-        Branch(holds);
-        if (!holds) words_end_ = index;
-        break;
-      }
-      case WordOp::kSkipRest:
-        if (((session_.options.skip_levels >> word.index) & 1U) != 0) words_end_ = index;
-        break;
-      case WordOp::kComputedG: GatherComputed(word, evaluator_.ToNumber(value), session_.machine.g_codes); break;
-      case WordOp::kComputedM: GatherComputed(word, evaluator_.ToNumber(value), session_.machine.m_codes); break;
-      case WordOp::kVerbatim: session_.Refuse(diag::Code::kRefusedBlock); break;
-      default:
-        values_[index - block.words.begin] = value;
-        Collect(word, value);
-        break;
-    }
-    if (session_.halted) return;
-  }
-}
-
-/// A code whose number was computed means what the table of the machine says.
-void Runner::GatherComputed(const Word& word, double code, const std::vector<ir::CodeMeaning>& codes) {
-  const double tenths = ir::ops::Round(code * 10);
-  const auto found = std::ranges::find_if(codes, [&](const ir::CodeMeaning& row) { return row.tenths == tenths; });
-  if (found == codes.end()) {
-    if (word.op == WordOp::kComputedM && code >= 0) {  // an M function of the machine builder
-      Word aux = word;
-      aux.op = WordOp::kAux;
-      aux.phase = Phase::kBefore;
-      computed_.push_back(aux);
-      return;
-    }
-    return session_.Alarm(ir::AlarmClass::kUnknownCode, fmt::format("code {:g} is not known", code));
-  }
-  Word made = word;
-  made.op = found->op;
-  made.index = found->index;
-  made.extra = found->extra;
-  made.phase = found->phase;
-  Collect(made, Value::Vacant());
-  computed_.push_back(made);
-}
-
-void Runner::Collect(const Word& word, const Value& value) {
-  const auto number = [&] { return evaluator_.ToNumber(value); };
-  const auto put = [&](double& place, std::uint32_t bit) {
-    place = number();
-    work_.has |= bit;
-  };
-  switch (word.op) {
-    case WordOp::kAxis:
-    case WordOp::kAxisComputed: {
-      std::uint8_t axis = word.index;
-      if (word.op == WordOp::kAxisComputed) {
-        const Value chosen = evaluator_.Eval(word.Extra<ir::ExprId>());
-        if (chosen.type != ir::Type::kAxis) return session_.Alarm(ir::AlarmClass::kConversion, "no axis");
-        axis = static_cast<std::uint8_t>(chosen.number);
-      }
-      const std::uint16_t bit = AxisBit(axis);
-      if ((session_.machine.axes & bit) == 0 && axis < ir::kLetterAxes) {
-        return session_.Alarm(ir::AlarmClass::kOther, fmt::format("axis {} does not exist", evaluator_.AxisName(axis)));
-      }
-      if ((work_.axes & bit) != 0) return session_.Alarm(ir::AlarmClass::kSyntax, fmt::format("axis {} twice in one block", evaluator_.AxisName(axis)));
-      work_.axes |= bit;
-      work_.axis[axis] = number();
-      work_.axis_mode[axis] = word.mode;
-      if ((word.flags & Word::kRoundsValue) != 0) work_.rounded |= bit;
-      return;
-    }
-    case WordOp::kCenter:
-      work_.centers |= static_cast<std::uint8_t>(1U << word.index);
-      work_.center[word.index] = number();
-      work_.center_mode[word.index] = word.mode;
-      return;
-    case WordOp::kVia:
-      work_.vias |= static_cast<std::uint8_t>(1U << word.index);
-      work_.via[word.index] = number();
-      work_.via_mode[word.index] = word.mode;
-      return;
-    case WordOp::kRadius: return put(work_.radius, BlockWork::kRadius);
-    case WordOp::kOpeningAngle: return put(work_.opening, BlockWork::kOpening);
-    case WordOp::kTurns: return put(work_.turns, BlockWork::kTurns);
-    case WordOp::kPolarRadius: return put(work_.polar_radius, BlockWork::kPolarRadius);
-    case WordOp::kPolarAngle:
-      work_.polar_angle_mode = word.mode;
-      return put(work_.polar_angle, BlockWork::kPolarAngle);
-    case WordOp::kChamfer: {
-      const auto kind = static_cast<ir::ChamferKind>(word.index);
-      if (kind == ir::ChamferKind::kRoundModal) return put(work_.round_modal, BlockWork::kRoundModal);
-      work_.chamfer_kind = kind;
-      return put(work_.chamfer, BlockWork::kChamfer);
-    }
-    case WordOp::kContourAngle: return put(work_.contour_angle, BlockWork::kContourAngle);
-    case WordOp::kStartAngle: return put(work_.start_angle, BlockWork::kStartAngle);
-    case WordOp::kFeed: return put(work_.feed, BlockWork::kFeed);
-    case WordOp::kFeedOnce: return put(work_.feed_once, BlockWork::kFeedOnce);
-    case WordOp::kFrameAngle: return put(work_.frame_angle, BlockWork::kFrameAngle);
-    case WordOp::kDwellSeconds:
-    case WordOp::kDwellRevolutions:
-      work_.dwell_revolutions = word.op == WordOp::kDwellRevolutions;
-      return put(work_.dwell, BlockWork::kDwell);
-    case WordOp::kMachineCoords: work_.has |= BlockWork::kMachineCoords; return;
-    case WordOp::kExactOnce: work_.has |= BlockWork::kExactOnce; return;
-    case WordOp::kPresetPosition: work_.has |= BlockWork::kPreset; return;
-    case WordOp::kReference:
-      work_.reference = static_cast<ir::ReferenceKind>(word.index);
-      work_.has |= BlockWork::kReference;
-      return;
-    case WordOp::kPole:
-      work_.pole = static_cast<ir::PoleBase>(word.index);
-      work_.has |= BlockWork::kPole;
-      return;
-    case WordOp::kFrame:
-      work_.frame = static_cast<ir::FrameOp>(word.index);
-      work_.has |= BlockWork::kFrame;
-      return;
-    case WordOp::kSpeed: work_.has |= BlockWork::kSpeed; return;
-    case WordOp::kSpeedLimit: work_.has |= BlockWork::kSpeedLimit; return;
-    case WordOp::kFeedMode: work_.has |= BlockWork::kFeedMode; return;
-    case WordOp::kEdge: work_.has |= BlockWork::kEdge; return;
-    default: return;
-  }
-}
-
 void Runner::Settings(const ir::Block& block) {
   for (std::uint32_t index = block.words.begin; index < words_end_; ++index) {
     const Word& word = session_.module.words[WordId{std::size_t{index}}];
@@ -349,7 +204,8 @@ void Runner::Actions(const ir::Block& block, Phase phase) {
     }
   }
   for (const Word& word : computed_) {
-    if (word.phase == phase) auxiliary_.Act(word, word.value.Valid() ? evaluator_.Eval(word.value) : Value::Vacant(), edge);
+    if (word.phase == phase)
+      auxiliary_.Act(word, word.value.Valid() ? evaluator_.Eval(word.value) : Value::Vacant(), edge);
   }
 }
 
@@ -365,8 +221,9 @@ void Runner::AtLimit() {
   const Level& level = levels_.back();
   if (level.kind == LevelKind::kPart || level.kind == LevelKind::kRange) return Leave();
   if (!session_.machine.file_end_is_end) {
-    return session_.Alarm(ir::AlarmClass::kProgramEnd,
-                          fmt::format("program {} has no end", session_.module.View(session_.module.programs[level.program].name)));
+    return session_.Alarm(
+        ir::AlarmClass::kProgramEnd,
+        fmt::format("program {} has no end", session_.module.View(session_.module.programs[level.program].name)));
   }
   if (level.kind == LevelKind::kMain) {
     done_ = true;
@@ -379,7 +236,9 @@ void Runner::EndRun() {
   session_.word = nullptr;
   if (!session_.halted) kinematics_.Finish();
   Report();
-  if (session_.options.report_variables && (session_.outcome == Outcome::kEnded || session_.outcome == Outcome::kAlarmed)) ReportVariables();
+  if (session_.options.report_variables &&
+      (session_.outcome == Outcome::kEnded || session_.outcome == Outcome::kAlarmed))
+    ReportVariables();
 }
 
 /// The last event of a run.

@@ -31,19 +31,19 @@ class Runner {
   struct Level {
     LevelKind kind = LevelKind::kMain;
     ir::ProgramId program;
-    std::uint32_t begin = 0, end = 0;      // blocks it runs
-    ir::BlockId from;                      // the block that started it
-    bool finish_block = false;             // the last phase of that block is still to come
-    std::uint32_t words_end = 0;           // of that block: words from here on were cut off
+    std::uint32_t begin = 0, end = 0;  // blocks it runs
+    ir::BlockId from;                  // the block that started it
+    bool finish_block = false;         // the last phase of that block is still to come
+    std::uint32_t words_end = 0;       // of that block: words from here on were cut off
     std::uint32_t passes_left = 0;
-    CallFacts facts;                       // of the level itself
-    Memory::Address stack = 0;             // memory is given back down to here
+    CallFacts facts;                              // of the level itself
+    Memory::Address stack = 0;                    // memory is given back down to here
     Memory::Address arguments = Memory::kNoRoom;  // parameters as passed, for further passes
-    std::uint32_t saved = kNotSaved;       // index in saves_
-    std::uint32_t modal = kNoModal;        // kModal: which one runs
-    std::size_t turns = 0;                 // first counter of the level in turn_counts_
-    bool keeps_locals = false;             // definitions do not make the locals anew
-    std::uint32_t call = kNoCall;          // ir::CallId
+    std::uint32_t saved = kNotSaved;              // index in saves_
+    std::uint32_t modal = kNoModal;               // kModal: which one runs
+    std::size_t turns = 0;                        // first counter of the level in turn_counts_
+    bool keeps_locals = false;                    // definitions do not make the locals anew
+    std::uint32_t call = kNoCall;                 // ir::CallId
   };
   static constexpr std::uint32_t kNotSaved = 0xFFFFFFFFU;
   static constexpr std::uint32_t kNoModal = 0xFFFFFFFFU;
@@ -57,10 +57,10 @@ class Runner {
   struct Modal {
     ir::CallId call;
     ir::ProgramId program;
-    std::uint32_t place = 0;      // of its frame
+    std::uint32_t place = 0;  // of its frame
     std::uint32_t passes = 1;
     std::uint64_t given = 0;
-    bool started = false;         // its locals exist
+    bool started = false;  // its locals exist
   };
 
   // run.cc
@@ -99,7 +99,8 @@ class Runner {
   bool CountingLoop(const ir::Block& opening, bool first, ir::BlockId closing);
   void Last(const ir::Block& block, std::uint32_t words_end);
   void LastWord(const ir::Word& word);
-  ir::BlockId FindTarget(const ir::Target& target, ir::ProgramId program, ir::BlockId from, ir::Search search, std::string& name);
+  ir::BlockId FindTarget(const ir::Target& target, ir::ProgramId program, ir::BlockId from, ir::Search search,
+                         std::string& name);
   void Branch(bool taken) { Cover(taken ? 2 : 4); }
 
   // calls.cc
@@ -114,12 +115,12 @@ class Runner {
   void InitFrame(ir::ProgramId program, Memory::Address frame);
   bool Deeper();
   void Enter(Level level);
-  void Leave();                          // the innermost level ends: next pass or back
+  void Leave();  // the innermost level ends: next pass or back
   void PopLevel();
-  void Return();                         // from the innermost call
+  void Return();  // from the innermost call
   void ReturnTo(ir::ExprId target);
-  void DropParts();                      // repeated parts on top of the stack
-  void Activate();                       // facts_ and limit_ follow the innermost level
+  void DropParts();                              // repeated parts on top of the stack
+  void Activate();                               // facts_ and limit_ follow the innermost level
   [[nodiscard]] const Level& CallLevel() const;  // the innermost level with locals of its own
 
   Session session_;
@@ -135,19 +136,19 @@ class Runner {
   std::vector<Level> levels_;
   std::vector<Save> saves_;
   std::vector<Modal> modals_;
-  std::uint32_t calls_ = 0;              // levels that count for the depth of calls
-  std::uint32_t pc_ = 0;                 // next block
-  std::uint32_t limit_ = 0;              // first block behind the innermost level
+  std::uint32_t calls_ = 0;  // levels that count for the depth of calls
+  std::uint32_t pc_ = 0;     // next block
+  std::uint32_t limit_ = 0;  // first block behind the innermost level
   bool done_ = false;
   std::uint64_t executed_ = 0;
 
   // Of the block in work.
   BlockWork work_;
-  std::vector<Value> values_;            // per word
-  std::uint32_t words_end_ = 0;          // words from here on were cut off (When, SkipRest)
-  std::vector<ir::Word> computed_;       // words made by codes that were computed
-  std::vector<Value> arguments_;         // of a call
-  std::vector<ir::VariableId> preset_;   // set from outside: their definitions do not overwrite them
+  std::vector<Value> values_;           // per word
+  std::uint32_t words_end_ = 0;         // words from here on were cut off (When, SkipRest)
+  std::vector<ir::Word> computed_;      // words made by codes that were computed
+  std::vector<Value> arguments_;        // of a call
+  std::vector<ir::VariableId> preset_;  // set from outside: their definitions do not overwrite them
 
   std::vector<ir::BlockId> call_blocks_;
   std::vector<std::uint32_t> turns_;

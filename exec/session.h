@@ -1,11 +1,11 @@
 // What the parts of one run share: the linked module, the outside world, and how the run comes to an early end.
 #pragma once
 
+#include <fmt/core.h>
+
 #include <cstdint>
 #include <string>
 #include <string_view>
-
-#include <fmt/core.h>
 
 #include "base/diag/sink.h"
 #include "exec/link.h"
@@ -15,9 +15,15 @@
 namespace ncport::exec {
 
 struct Session {
-  Session(const Linked& linked_module, const RunOptions& run_options, Environment& outside, diag::Sink& findings, Coverage* touched)
-      : linked(linked_module), module(linked_module.module()), machine(linked_module.machine()), options(run_options),
-        environment(outside), sink(findings), coverage(touched) {}
+  Session(const Linked& linked_module, const RunOptions& run_options, Environment& outside, diag::Sink& findings,
+          Coverage* touched)
+      : linked(linked_module),
+        module(linked_module.module()),
+        machine(linked_module.machine()),
+        options(run_options),
+        environment(outside),
+        sink(findings),
+        coverage(touched) {}
 
   const Linked& linked;
   const ir::Module& module;
@@ -27,8 +33,8 @@ struct Session {
   diag::Sink& sink;
   Coverage* coverage;
 
-  ir::BlockId block;                    // being executed
-  const ir::Word* word = nullptr;       // being evaluated: the place of findings; none = the block
+  ir::BlockId block;               // being executed
+  const ir::Word* word = nullptr;  // being evaluated: the place of findings; none = the block
 
   // The first trouble wins: work on the block goes on with harmless values until the loop looks at `halted`.
   bool halted = false;
@@ -48,7 +54,8 @@ struct Session {
   /// An alarm of arithmetic or conversion; nothing for kNone.
   void Alarm(ir::ops::Error error) {
     if (error == ir::ops::Error::kNone) return;
-    Alarm(error == ir::ops::Error::kConversion ? ir::AlarmClass::kConversion : ir::AlarmClass::kArithmetic, ir::ops::TextOf(error));
+    Alarm(error == ir::ops::Error::kConversion ? ir::AlarmClass::kConversion : ir::AlarmClass::kArithmetic,
+          ir::ops::TextOf(error));
   }
   /// The run cannot go on without guessing: a finding at the present word.
   template <class... Args>

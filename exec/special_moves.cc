@@ -9,8 +9,8 @@ namespace ncport::exec {
 
 using ir::Motion;
 
-/// Lead: the centre word of an axis, of the longer one on a taper (sinumerik-8.4), or F on controls that say so. Decreasing
-/// leads have a negative change.
+/// Lead: the centre word of an axis, of the longer one on a taper (sinumerik-8.4), or F on controls that say so.
+/// Decreasing leads have a negative change.
 bool Kinematics::Thread(const BlockWork& work, Motion motion) {
   const bool tap = motion == Motion::kTapIn || motion == Motion::kTapOut;
   double centre = 0;
@@ -61,10 +61,11 @@ bool Kinematics::MachineMove(const BlockWork& work) {
   for (std::uint8_t axis = 0; axis < ir::kMaxAxes; ++axis) {
     if ((work.axes & AxisBit(axis)) == 0) continue;
     const ir::ValueMode mode = work.axis_mode[axis];
-    const bool absolute = mode == ir::ValueMode::kModal ? channel_.modal.distance == ir::Distance::kAbsolute
-                                                       : mode == ir::ValueMode::kAbsolute || mode == ir::ValueMode::kAbsoluteDiameter ||
-                                                             mode == ir::ValueMode::kAbsoluteRadius || mode == ir::ValueMode::kShortest ||
-                                                             mode == ir::ValueMode::kPositive || mode == ir::ValueMode::kNegative;
+    const bool absolute = mode == ir::ValueMode::kModal
+                              ? channel_.modal.distance == ir::Distance::kAbsolute
+                              : mode == ir::ValueMode::kAbsolute || mode == ir::ValueMode::kAbsoluteDiameter ||
+                                    mode == ir::ValueMode::kAbsoluteRadius || mode == ir::ValueMode::kShortest ||
+                                    mode == ir::ValueMode::kPositive || mode == ir::ValueMode::kNegative;
     if (!absolute) {
       session_.Refuse(diag::Code::kCannotRun, "an increment in machine coordinates");
       return false;
@@ -119,7 +120,8 @@ void Kinematics::Dwell(const BlockWork& work) {
   emitter_.Send(event);
 }
 
-/// ANG with one end coordinate: the other one follows. Without any: the end waits for the next block. False: no line yet.
+/// ANG with one end coordinate: the other one follows. Without any: the end waits for the next block. False: no line
+/// yet.
 bool Kinematics::ResolveAngle(const BlockWork& work) {
   if (Unknown(channel_.modal.plane == ir::Plane::kUnknown, "the plane")) return false;
   const PlaneAxes axes = AxesOf(channel_.modal.plane);
@@ -131,7 +133,8 @@ bool Kinematics::ResolveAngle(const BlockWork& work) {
   const double c = ir::ops::Cos(work.contour_angle);
   const double s = ir::ops::Sin(work.contour_angle);
   const double along = first ? c : s;
-  const double way = first ? target_[axes.first] - channel_.work[axes.first] : target_[axes.second] - channel_.work[axes.second];
+  const double way =
+      first ? target_[axes.first] - channel_.work[axes.first] : target_[axes.second] - channel_.work[axes.second];
   if (along == 0 || (way != 0 && way / along < 0)) {
     session_.Alarm(ir::AlarmClass::kGeometry, "the angle does not lead to the end coordinate");
     return false;
@@ -151,7 +154,8 @@ bool Kinematics::OpenAngle(const BlockWork& work) {
     return false;
   }
   if (!FeedReady(work)) return false;
-  open_ = {true, work.contour_angle, channel_.feed_known, channel_.feed, channel_.modal.feed_mode, work, session_.block};
+  open_ = {true, work.contour_angle, channel_.feed_known, channel_.feed, channel_.modal.feed_mode,
+           work, session_.block};
   return false;
 }
 
@@ -161,17 +165,19 @@ bool Kinematics::CloseAngle(const BlockWork& work) {
   open_.active = false;
   const PlaneAxes axes = AxesOf(channel_.modal.plane);
   const auto both = static_cast<std::uint16_t>(AxisBit(axes.first) | AxisBit(axes.second));
-  const bool complete = channel_.modal.motion == Motion::kLinear && work.Has(BlockWork::kContourAngle) && !work.Has(BlockWork::kOneShotMotion) &&
-                        (work.axes & both) == both;
+  const bool complete = channel_.modal.motion == Motion::kLinear && work.Has(BlockWork::kContourAngle) &&
+                        !work.Has(BlockWork::kOneShotMotion) && (work.axes & both) == both;
   if (!complete) {
-    session_.Alarm(ir::AlarmClass::kGeometry, "a line with only an angle needs a line with angle and end point behind it");
+    session_.Alarm(ir::AlarmClass::kGeometry,
+                   "a line with only an angle needs a line with angle and end point behind it");
     return false;
   }
   for (const std::uint8_t axis : {axes.first, axes.second}) {
     const ir::ValueMode mode = work.axis_mode[axis];
-    const bool absolute = mode == ir::ValueMode::kModal ? channel_.modal.distance == ir::Distance::kAbsolute
-                                                       : mode == ir::ValueMode::kAbsolute || mode == ir::ValueMode::kAbsoluteDiameter ||
-                                                             mode == ir::ValueMode::kAbsoluteRadius;
+    const bool absolute = mode == ir::ValueMode::kModal
+                              ? channel_.modal.distance == ir::Distance::kAbsolute
+                              : mode == ir::ValueMode::kAbsolute || mode == ir::ValueMode::kAbsoluteDiameter ||
+                                    mode == ir::ValueMode::kAbsoluteRadius;
     if (absolute) continue;
     session_.Refuse(diag::Code::kCannotRun, "an increment behind a line with only an angle");
     return false;

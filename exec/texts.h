@@ -40,7 +40,7 @@ class Texts {
   TextBuffer chars_;
   std::vector<Entry> entries_{Entry{}};  // entry 0: the empty text
   std::uint64_t max_bytes_;
-  std::uint64_t used_ = 0;               // characters and entries, in bytes
+  std::uint64_t used_ = 0;  // characters and entries, in bytes
   std::uint64_t next_compaction_ = kFirstCompaction;
   bool full_ = false;
 };

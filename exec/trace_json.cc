@@ -11,11 +11,10 @@ namespace {
 constexpr int kDecimals = 9;
 
 constexpr std::array<std::string_view, 28> kKinds = {
-    "rapid",        "line",          "arc",           "thread",           "tap",  "rapid-mcs", "refpoint",
-    "probe",        "dwell",         "spindle",       "spindle-rpm",      "spindle-css",
-    "spindle-limit", "spindle-pos",  "tool",          "offset",           "comp", "wcs",       "path",
-    "aux",          "msg",           "print",         "stop",             "optstop", "alarm",  "end",
-    "set",          ""};
+    "rapid", "line",   "arc",     "thread",      "tap",         "rapid-mcs",     "refpoint",
+    "probe", "dwell",  "spindle", "spindle-rpm", "spindle-css", "spindle-limit", "spindle-pos",
+    "tool",  "offset", "comp",    "wcs",         "path",        "aux",           "msg",
+    "print", "stop",   "optstop", "alarm",       "end",         "set",           ""};
 static_assert(kKinds[static_cast<std::size_t>(EventKind::kSetVariable)] == "set");
 
 class Object {
@@ -74,7 +73,9 @@ void Motion(Object& object, const Event& event, const ir::Module& module) {
   for (std::uint8_t axis = 0; axis < ir::kMaxAxes; ++axis) {
     if ((event.known_axes >> axis & 1U) == 0) continue;
     const std::size_t named = axis < ir::kFirstNamedAxis ? 0U : static_cast<std::size_t>(axis - ir::kFirstNamedAxis);
-    const std::string_view name = axis < ir::kLetterAxes ? kLetters.substr(axis, 1) : named < module.axis_names.size() ? module.View(module.axis_names[named]) : "?";
+    const std::string_view name = axis < ir::kLetterAxes             ? kLetters.substr(axis, 1)
+                                  : named < module.axis_names.size() ? module.View(module.axis_names[named])
+                                                                     : "?";
     to.Number(name, event.position[axis]);
   }
   to.Close();
@@ -91,7 +92,8 @@ void Feed(Object& object, const Event& event) {
 void Details(Object& object, const Event& event, const ir::Module& module) {
   switch (event.kind) {
     case EventKind::kRapid:
-    case EventKind::kRapidMachine: return Motion(object, event, module);
+    case EventKind::kRapidMachine:
+      return Motion(object, event, module);
     case EventKind::kLine:
     case EventKind::kProbe:
       Motion(object, event, module);
@@ -148,19 +150,23 @@ void Details(Object& object, const Event& event, const ir::Module& module) {
                                                                     : "none");
       return object.Number("number", event.number);
     case EventKind::kComp:
-      return object.Text("side", event.comp == ir::CutterComp::kLeft ? "LEFT" : event.comp == ir::CutterComp::kRight ? "RIGHT" : "OFF");
+      return object.Text("side", event.comp == ir::CutterComp::kLeft    ? "LEFT"
+                                 : event.comp == ir::CutterComp::kRight ? "RIGHT"
+                                                                        : "OFF");
     case EventKind::kWorkOffset:
       object.Number("number", event.number);
       if (event.extension != 0) object.Number("extension", event.extension);
       return;
-    case EventKind::kPath: return object.Text("mode", event.path == ir::PathMode::kContinuous ? "CONTINUOUS" : "EXACT");
+    case EventKind::kPath:
+      return object.Text("mode", event.path == ir::PathMode::kContinuous ? "CONTINUOUS" : "EXACT");
     case EventKind::kAux:
       object.Text("address", event.text.empty() ? "M" : event.text);
       object.Number("number", event.number);
       if (event.extension != 0) object.Number("extension", event.extension);
       return;
     case EventKind::kMessage:
-    case EventKind::kPrint: return object.Text("text", event.text);
+    case EventKind::kPrint:
+      return object.Text("text", event.text);
     case EventKind::kAlarm:
       object.Text("code", event.code);
       return object.Text("text", event.text);
@@ -169,7 +175,8 @@ void Details(Object& object, const Event& event, const ir::Module& module) {
       return object.Text("value", event.code);
     case EventKind::kStop:
     case EventKind::kOptionalStop:
-    case EventKind::kEnd: return;
+    case EventKind::kEnd:
+      return;
   }
 }
 

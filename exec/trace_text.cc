@@ -40,7 +40,9 @@ void Feed(TextBuffer& buffer, const Event& event) {
   if (event.feed_mode == ir::FeedMode::kInverseTime) buffer.Append("/t");
 }
 
-std::string_view PlaneName(ir::Plane plane) { return plane == ir::Plane::kZX ? "ZX" : plane == ir::Plane::kYZ ? "YZ" : "XY"; }
+std::string_view PlaneName(ir::Plane plane) {
+  return plane == ir::Plane::kZX ? "ZX" : plane == ir::Plane::kYZ ? "YZ" : "XY";
+}
 
 void Arc(TextBuffer& buffer, const Event& event, const ir::Module& module) {
   buffer.Append(event.clockwise ? "ARC CW " : "ARC CCW ");
@@ -70,10 +72,18 @@ void Spindle(TextBuffer& buffer, const Event& event) {
   buffer.Append("SPINDLE");
   if (event.spindle != 0) AppendInteger(buffer, event.spindle);
   switch (event.kind) {
-    case EventKind::kSpindleSpeed: Word(buffer, " RPM ", event.value); break;
-    case EventKind::kSpindleSurface: Word(buffer, " CSS ", event.value); break;
-    case EventKind::kSpindleLimit: Word(buffer, " LIMIT ", event.value); break;
-    case EventKind::kSpindlePosition: Word(buffer, " POS ", event.value); break;
+    case EventKind::kSpindleSpeed:
+      Word(buffer, " RPM ", event.value);
+      break;
+    case EventKind::kSpindleSurface:
+      Word(buffer, " CSS ", event.value);
+      break;
+    case EventKind::kSpindleLimit:
+      Word(buffer, " LIMIT ", event.value);
+      break;
+    case EventKind::kSpindlePosition:
+      Word(buffer, " POS ", event.value);
+      break;
     default:
       buffer.Append(event.spindle_state == ir::SpindleState::kCw    ? " CW"
                     : event.spindle_state == ir::SpindleState::kCcw ? " CCW"
@@ -85,11 +95,21 @@ void Spindle(TextBuffer& buffer, const Event& event) {
 void Offset(TextBuffer& buffer, const Event& event) {
   buffer.Append("OFFSET");
   switch (event.offset) {
-    case OffsetKind::kNone: buffer.Append(" NONE"); return;
-    case OffsetKind::kNumber: buffer.Append(' '); break;
-    case OffsetKind::kEdge: buffer.Append(" EDGE "); break;
-    case OffsetKind::kLength: buffer.Append(" LENGTH "); break;
-    case OffsetKind::kRadius: buffer.Append(" RADIUS "); break;
+    case OffsetKind::kNone:
+      buffer.Append(" NONE");
+      return;
+    case OffsetKind::kNumber:
+      buffer.Append(' ');
+      break;
+    case OffsetKind::kEdge:
+      buffer.Append(" EDGE ");
+      break;
+    case OffsetKind::kLength:
+      buffer.Append(" LENGTH ");
+      break;
+    case OffsetKind::kRadius:
+      buffer.Append(" RADIUS ");
+      break;
   }
   AppendInteger(buffer, event.number);
 }
@@ -132,9 +152,11 @@ void Line(TextBuffer& buffer, const Event& event, const ir::Module& module) {
       buffer.Append(event.kind == EventKind::kLine ? "LINE" : "PROBE");
       Axes(buffer, event, module);
       return Feed(buffer, event);
-    case EventKind::kArc: return Arc(buffer, event, module);
+    case EventKind::kArc:
+      return Arc(buffer, event, module);
     case EventKind::kThread:
-    case EventKind::kTap: return Thread(buffer, event, module);
+    case EventKind::kTap:
+      return Thread(buffer, event, module);
     case EventKind::kRapidMachine:
       buffer.Append("RAPID MCS");
       return Axes(buffer, event, module);
@@ -154,34 +176,42 @@ void Line(TextBuffer& buffer, const Event& event, const ir::Module& module) {
     case EventKind::kSpindleSpeed:
     case EventKind::kSpindleSurface:
     case EventKind::kSpindleLimit:
-    case EventKind::kSpindlePosition: return Spindle(buffer, event);
+    case EventKind::kSpindlePosition:
+      return Spindle(buffer, event);
     case EventKind::kTool:
       buffer.Append("TOOL ");
       if (event.text.empty()) return AppendInteger(buffer, event.number);
       buffer.Append('"');
       buffer.Append(event.text);
       return buffer.Append('"');
-    case EventKind::kOffset: return Offset(buffer, event);
+    case EventKind::kOffset:
+      return Offset(buffer, event);
     case EventKind::kComp:
       return buffer.Append(event.comp == ir::CutterComp::kLeft    ? "COMP LEFT"
                            : event.comp == ir::CutterComp::kRight ? "COMP RIGHT"
                                                                   : "COMP OFF");
-    case EventKind::kWorkOffset: return WorkOffset(buffer, event);
-    case EventKind::kPath: return buffer.Append(event.path == ir::PathMode::kContinuous ? "PATH CONTINUOUS" : "PATH EXACT");
-    case EventKind::kAux: return Aux(buffer, event);
+    case EventKind::kWorkOffset:
+      return WorkOffset(buffer, event);
+    case EventKind::kPath:
+      return buffer.Append(event.path == ir::PathMode::kContinuous ? "PATH CONTINUOUS" : "PATH EXACT");
+    case EventKind::kAux:
+      return Aux(buffer, event);
     case EventKind::kMessage:
       buffer.Append("MSG");
       return Text(buffer, event.text);
     case EventKind::kPrint:
       buffer.Append("PRINT");
       return Text(buffer, event.text);
-    case EventKind::kStop: return buffer.Append("STOP");
-    case EventKind::kOptionalStop: return buffer.Append("OPTSTOP");
+    case EventKind::kStop:
+      return buffer.Append("STOP");
+    case EventKind::kOptionalStop:
+      return buffer.Append("OPTSTOP");
     case EventKind::kAlarm:
       buffer.Append("ALARM");
       Text(buffer, event.code.empty() ? std::string_view{"?"} : event.code);
       return Text(buffer, event.text);
-    case EventKind::kEnd: return buffer.Append("END");
+    case EventKind::kEnd:
+      return buffer.Append("END");
     case EventKind::kSetVariable:
       buffer.Append("SET");
       Text(buffer, event.text);

@@ -32,8 +32,10 @@ constexpr Value ZeroOf(ir::Type type) {
     case ir::Type::kReal:
     case ir::Type::kBool:
     case ir::Type::kChar:
-    case ir::Type::kAxis: return {type, 0, 0};
-    default: return {};
+    case ir::Type::kAxis:
+      return {type, 0, 0};
+    default:
+      return {};
   }
 }
 

@@ -22,7 +22,8 @@ bool ToBits(double value, std::uint32_t& bits) {
 
 Number FromBits(std::uint32_t bits) { return {static_cast<double>(static_cast<std::int32_t>(bits)), Error::kNone}; }
 
-/// Multiples of decimal increments print clean when they are the quotient by the whole reciprocal: 5 * 0.001 -> 5 / 1000.
+/// Multiples of decimal increments print clean when they are the quotient by the whole reciprocal: 5 * 0.001 -> 5 /
+/// 1000.
 double MultipleOf(double count, double increment) {
   const double reciprocal = std::round(1.0 / increment);
   if (increment < 1 && 1.0 / reciprocal == increment) return count / reciprocal;
@@ -87,9 +88,12 @@ Number Bits(BitOp op, double a, double b) {
   std::uint32_t right = 0;
   if (!ToBits(a, left) || !ToBits(b, right)) return Fail(Error::kConversion);
   switch (op) {
-    case BitOp::kAnd: return FromBits(left & right);
-    case BitOp::kOr: return FromBits(left | right);
-    case BitOp::kXor: return FromBits(left ^ right);
+    case BitOp::kAnd:
+      return FromBits(left & right);
+    case BitOp::kOr:
+      return FromBits(left | right);
+    case BitOp::kXor:
+      return FromBits(left ^ right);
   }
   return Fail(Error::kConversion);
 }

@@ -1,5 +1,5 @@
-// The arithmetic of all languages: pure functions on doubles. Folding, checks and the evaluator share them, so that a constant
-// means the same everywhere. Results of doubles that are not finite are errors, never values.
+// The arithmetic of all languages: pure functions on doubles. Folding, checks and the evaluator share them, so that a
+// constant means the same everywhere. Results of doubles that are not finite are errors, never values.
 #pragma once
 
 #include <cmath>
@@ -20,11 +20,11 @@ constexpr Number Subtract(double a, double b) { return Finite(a - b); }
 constexpr Number Multiply(double a, double b) { return Finite(a * b); }
 /// Real quotient, also of whole numbers.
 constexpr Number Divide(double a, double b) { return b == 0 ? Fail(Error::kDivisionByZero) : Finite(a / b); }
-/// Quotient of the operands as they are, cut toward zero: 7 and 0.4 give 17, -7 and 2 give -3 (sinumerik-4.2). No tolerance:
-/// 0.6 and 0.2 give 2, because the double 0.6 is smaller than three times the double 0.2.
+/// Quotient of the operands as they are, cut toward zero: 7 and 0.4 give 17, -7 and 2 give -3 (sinumerik-4.2). No
+/// tolerance: 0.6 and 0.2 give 2, because the double 0.6 is smaller than three times the double 0.2.
 Number DivideInteger(double a, double b);
-/// a - b * DivideInteger(a, b): the fraction stays, the sign is that of `a`. Without the error of that formula: the remainder of
-/// two doubles is exact.
+/// a - b * DivideInteger(a, b): the fraction stays, the sign is that of `a`. Without the error of that formula: the
+/// remainder of two doubles is exact.
 Number Modulo(double a, double b);
 
 /// |a - b| <= tolerance * larger magnitude; tolerance 0 = exact.
@@ -44,10 +44,11 @@ double RoundToIncrement(double value, double increment);
 /// As RoundToIncrement, but cuts toward zero. A value that is a multiple but for binary noise keeps it.
 double TruncateToIncrement(double value, double increment);
 
-/// Result of an operation on a control that does not keep every digit. kNum8 keeps values as they are: it cuts at stores.
+/// Result of an operation on a control that does not keep every digit. kNum8 keeps values as they are: it cuts at
+/// stores.
 double ApplyModel(double value, NumericModel model);
-/// What a variable keeps of `value`. kNum8: first eight digits, the rest cut (NUM-10); more than eight before the point is
-/// kOverflow. Other models: the value.
+/// What a variable keeps of `value`. kNum8: first eight digits, the rest cut (NUM-10); more than eight before the point
+/// is kOverflow. Other models: the value.
 Number Store(double value, NumericModel model);
 
 /// Bit operations on whole numbers of 32 bits; operands outside are kConversion.

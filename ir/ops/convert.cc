@@ -25,10 +25,14 @@ Number ToChar(double value) { return InRange(Round(value), 0, 255); }
 
 Number Convert(double value, Type type, const Machine& machine) {
   switch (type) {
-    case Type::kInt: return ToInt(value, machine);
-    case Type::kChar: return ToChar(value);
-    case Type::kBool: return {value != 0 ? 1.0 : 0.0, Error::kNone};
-    default: return {value, Error::kNone};
+    case Type::kInt:
+      return ToInt(value, machine);
+    case Type::kChar:
+      return ToChar(value);
+    case Type::kBool:
+      return {value != 0 ? 1.0 : 0.0, Error::kNone};
+    default:
+      return {value, Error::kNone};
   }
 }
 

@@ -59,36 +59,62 @@ Number Apply(Function function, const double* args, std::size_t count, const Mac
                NameOf(function));
   const double x = args[0];
   switch (function) {
-    case Function::kSin: return Ok(Sin(x));
-    case Function::kCos: return Ok(Cos(x));
-    case Function::kTan: return Tan(x);
-    case Function::kAsin: return Asin(x);
-    case Function::kAcos: return Acos(x);
-    case Function::kAtan: return Ok(Atan(x));
-    case Function::kAtan2: return Ok(Atan2(x, args[1]));
+    case Function::kSin:
+      return Ok(Sin(x));
+    case Function::kCos:
+      return Ok(Cos(x));
+    case Function::kTan:
+      return Tan(x);
+    case Function::kAsin:
+      return Asin(x);
+    case Function::kAcos:
+      return Acos(x);
+    case Function::kAtan:
+      return Ok(Atan(x));
+    case Function::kAtan2:
+      return Ok(Atan2(x, args[1]));
     case Function::kAtan2Positive: {
       const double angle = Atan2(x, args[1]);
       return Ok(angle < 0 ? angle + 360.0 : angle);
     }
-    case Function::kSqrt: return x < 0 ? Fail(Error::kDomain) : Ok(std::sqrt(x));
-    case Function::kAbs: return Ok(std::fabs(x));
-    case Function::kSquare: return Finite(x * x);
-    case Function::kPower: return Power(x, args[1]);
-    case Function::kLn: return x <= 0 ? Fail(Error::kDomain) : Ok(std::log(x));
-    case Function::kExp: return Finite(std::exp(x));
-    case Function::kTruncate: return Ok(std::trunc(x) + 0.0);
-    case Function::kRound: return Ok(Round(x));
-    case Function::kRoundUp: return Ok(std::ceil(x) + 0.0);
-    case Function::kRoundAway: return Ok(RoundAway(x));
-    case Function::kRoundToIncrement: return Ok(RoundToIncrement(x, machine.increment));
-    case Function::kMinimum: return Ok(std::fmin(x, args[1]));
-    case Function::kMaximum: return Ok(std::fmax(x, args[1]));
-    case Function::kBound: return x > args[1] ? Fail(Error::kDomain) : Ok(std::fmin(std::fmax(args[2], x), args[1]));
-    case Function::kFactorial: return Factorial(x);
-    case Function::kFromBcd: return FromBcd(x);
-    case Function::kToBcd: return ToBcd(x);
-    case Function::kAddDecimalPoint: return Ok(x);
-    default: NCPORT_BUG("{} is not a function of numbers", NameOf(function));
+    case Function::kSqrt:
+      return x < 0 ? Fail(Error::kDomain) : Ok(std::sqrt(x));
+    case Function::kAbs:
+      return Ok(std::fabs(x));
+    case Function::kSquare:
+      return Finite(x * x);
+    case Function::kPower:
+      return Power(x, args[1]);
+    case Function::kLn:
+      return x <= 0 ? Fail(Error::kDomain) : Ok(std::log(x));
+    case Function::kExp:
+      return Finite(std::exp(x));
+    case Function::kTruncate:
+      return Ok(std::trunc(x) + 0.0);
+    case Function::kRound:
+      return Ok(Round(x));
+    case Function::kRoundUp:
+      return Ok(std::ceil(x) + 0.0);
+    case Function::kRoundAway:
+      return Ok(RoundAway(x));
+    case Function::kRoundToIncrement:
+      return Ok(RoundToIncrement(x, machine.increment));
+    case Function::kMinimum:
+      return Ok(std::fmin(x, args[1]));
+    case Function::kMaximum:
+      return Ok(std::fmax(x, args[1]));
+    case Function::kBound:
+      return x > args[1] ? Fail(Error::kDomain) : Ok(std::fmin(std::fmax(args[2], x), args[1]));
+    case Function::kFactorial:
+      return Factorial(x);
+    case Function::kFromBcd:
+      return FromBcd(x);
+    case Function::kToBcd:
+      return ToBcd(x);
+    case Function::kAddDecimalPoint:
+      return Ok(x);
+    default:
+      NCPORT_BUG("{} is not a function of numbers", NameOf(function));
   }
 }
 

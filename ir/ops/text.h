@@ -1,5 +1,5 @@
-// Texts: numbers to text and back, and the string functions. Positions count characters from 0; a character is a code point, so
-// that texts from other code pages count as on the control.
+// Texts: numbers to text and back, and the string functions. Positions count characters from 0; a character is a code
+// point, so that texts from other code pages count as on the control.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +17,8 @@ void AppendNumberText(TextBuffer& buffer, double value);
 /// The character with this code (0..255) as UTF-8; code 0 appends nothing, as it ends a string.
 void AppendCharacter(TextBuffer& buffer, double code);
 
-/// The number that `text` is as a whole: sign, digits with at most one point, exponent `EX` with sign, blanks around it.
-/// kConversion if it is none.
+/// The number that `text` is as a whole: sign, digits with at most one point, exponent `EX` with sign, blanks around
+/// it. kConversion if it is none.
 Number ParseNumber(std::string_view text);
 
 /// Number of characters.
@@ -51,9 +51,9 @@ struct FormatValue {
   double number = 0;
   std::string_view text;
 };
-/// SPRINT (sinumerik-4.6): %d %f %e %g %s %x %b %c %% with width and precision; the width pads left with blanks, `-` right,
-/// `0` with zeros. %f without precision has 6 decimals. An unknown letter, a missing value or a text where a number is needed
-/// is kConversion.
+/// SPRINT (sinumerik-4.6): %d %f %e %g %s %x %b %c %% with width and precision; the width pads left with blanks, `-`
+/// right, `0` with zeros. %f without precision has 6 decimals. An unknown letter, a missing value or a text where a
+/// number is needed is kConversion.
 Error Format(TextBuffer& buffer, std::string_view format, std::span<const FormatValue> values);
 
 }  // namespace ncport::ir::ops

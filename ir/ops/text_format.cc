@@ -1,9 +1,9 @@
 // SPRINT.
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdint>
 #include <iterator>
-
-#include <fmt/format.h>
 
 #include "ir/ops/arithmetic.h"
 #include "ir/ops/text.h"
@@ -80,10 +80,18 @@ Error AppendOne(TextBuffer& buffer, const Conversion& conversion, const FormatVa
   const auto out = std::back_inserter(text);
   const double whole = Round(value.number);
   switch (conversion.letter) {
-    case 'd': fmt::format_to(out, "{:.0f}", whole + 0.0); break;
-    case 'f': fmt::format_to(out, "{:.{}f}", value.number, precision); break;
-    case 'e': fmt::format_to(out, "{:.{}e}", value.number, precision); break;
-    case 'g': fmt::format_to(out, "{:.{}g}", value.number, precision == 0 ? 1 : precision); break;
+    case 'd':
+      fmt::format_to(out, "{:.0f}", whole + 0.0);
+      break;
+    case 'f':
+      fmt::format_to(out, "{:.{}f}", value.number, precision);
+      break;
+    case 'e':
+      fmt::format_to(out, "{:.{}e}", value.number, precision);
+      break;
+    case 'g':
+      fmt::format_to(out, "{:.{}g}", value.number, precision == 0 ? 1 : precision);
+      break;
     case 'x':
     case 'b': {
       if (!(std::fabs(whole) <= 4294967295.0)) return Error::kConversion;
@@ -102,7 +110,8 @@ Error AppendOne(TextBuffer& buffer, const Conversion& conversion, const FormatVa
       Pad(buffer, conversion, character.View());
       return Error::kNone;
     }
-    default: return Error::kConversion;
+    default:
+      return Error::kConversion;
   }
   Pad(buffer, conversion, {text.data(), text.size()});
   return Error::kNone;

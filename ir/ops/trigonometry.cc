@@ -22,7 +22,8 @@ double QuadrantCos(double degrees) {
   return degrees < 45.0 ? SmallCos(degrees) : SmallSin(90.0 - degrees);
 }
 
-/// `degrees`, which came out of an inverse function, or the whole number of degrees beside it when that one is the exact answer.
+/// `degrees`, which came out of an inverse function, or the whole number of degrees beside it when that one is the
+/// exact answer.
 template <class Forward>
 double Snap(double degrees, double value, Forward forward) {
   const double whole = std::round(degrees);

@@ -8,7 +8,8 @@ namespace ncport::exec {
 
 TEST_CASE_FIXTURE(RunFixture, "centre from the start, full circles (vector 30)") {
   CHECK(Trace({"G0 X20 Y0", "G3 X0 Y20 I-20 J0 F200", "G2 X20 Y0 J-20", "G2 I-20"}) ==
-        "RAPID X20 Y0\nARC CCW XY X0 Y20 center (0,0) F200\nARC CW XY X20 Y0 center (0,0) F200\nARC CW XY X20 Y0 center (0,0) F200\n");
+        "RAPID X20 Y0\nARC CCW XY X0 Y20 center (0,0) F200\nARC CW XY X20 Y0 center (0,0) F200\nARC CW XY X20 Y0 "
+        "center (0,0) F200\n");
 }
 
 TEST_CASE_FIXTURE(RunFixture, "absolute centre, also under G91 (vector 31)") {
@@ -18,32 +19,39 @@ TEST_CASE_FIXTURE(RunFixture, "absolute centre, also under G91 (vector 31)") {
 
 TEST_CASE_FIXTURE(RunFixture, "radius: short and long arc") {
   CHECK(Trace({"G0 X10 Y0", "G3 X0 Y10 CR=10 F100", "G3 X-10 Y0 CR=-10", "G2 X-10 Y20 CR=10"}) ==
-        "RAPID X10 Y0\nARC CCW XY X0 Y10 center (0,0) F100\nARC CCW XY X-10 Y0 center (-10,10) F100\nARC CW XY X-10 Y20 center (-10,10) F100\n");
+        "RAPID X10 Y0\nARC CCW XY X0 Y10 center (0,0) F100\nARC CCW XY X-10 Y0 center (-10,10) F100\nARC CW XY X-10 "
+        "Y20 center (-10,10) F100\n");
 }
 
 TEST_CASE_FIXTURE(RunFixture, "opening angle with end point or centre (vectors 33, 61)") {
   CHECK(Trace({"G0 X0 Y0", "G3 X20 Y0 AR=180 F100", "G2 I-10 J0 AR=90", "G2 X0 Y-20 AR=90"}) ==
-        "RAPID X0 Y0\nARC CCW XY X20 Y0 center (10,0) F100\nARC CW XY X10 Y-10 center (10,0) F100\nARC CW XY X0 Y-20 center (0,-10) F100\n");
+        "RAPID X0 Y0\nARC CCW XY X20 Y0 center (10,0) F100\nARC CW XY X10 Y-10 center (10,0) F100\nARC CW XY X0 Y-20 "
+        "center (0,-10) F100\n");
   RunFixture pair;
-  CHECK(pair.Trace({"G0 X67.5 Y80.211", "G3 X17.203 Y38.029 AR=140.134 F500", "G0 X67.5 Y80.211", "G3 I-17.5 J-30.211 AR=140.134"}) ==
+  CHECK(pair.Trace({"G0 X67.5 Y80.211", "G3 X17.203 Y38.029 AR=140.134 F500", "G0 X67.5 Y80.211",
+                    "G3 I-17.5 J-30.211 AR=140.134"}) ==
         "RAPID X67.5 Y80.211\nARC CCW XY X17.203 Y38.029 center (50.000078,49.999984) F500\nRAPID X67.5 Y80.211\n"
         "ARC CCW XY X17.202873 Y38.029078 center (50,50) F500\n");
 }
 
 TEST_CASE_FIXTURE(RunFixture, "through a point: plane and sense follow from three points (vector 34)") {
-  CHECK(Trace({"G0 X0 Y0 Z0", "CIP X20 Y0 Z0 I1=10 J1=10 K1=0 F100"}) == "RAPID X0 Y0 Z0\nARC CW XY X20 Y0 Z0 center (10,0) F100\n");
+  CHECK(Trace({"G0 X0 Y0 Z0", "CIP X20 Y0 Z0 I1=10 J1=10 K1=0 F100"}) ==
+        "RAPID X0 Y0 Z0\nARC CW XY X20 Y0 Z0 center (10,0) F100\n");
   RunFixture upright;
-  CHECK(upright.Trace({"G0 X0 Y0 Z0", "CIP X20 Z0 I1=10 K1=10 F100"}) == "RAPID X0 Y0 Z0\nARC CCW ZX X20 Y0 Z0 center (0,10) F100\n");
+  CHECK(upright.Trace({"G0 X0 Y0 Z0", "CIP X20 Z0 I1=10 K1=10 F100"}) ==
+        "RAPID X0 Y0 Z0\nARC CCW ZX X20 Y0 Z0 center (0,10) F100\n");
   RunFixture tilted;
   tilted.Trace({"G0 X0 Y0 Z0", "CIP X20 Y0 Z5 I1=10 J1=10 K1=1 F100"});
   CHECK(tilted.Finding().find("parallel to no main plane") != std::string::npos);
   RunFixture straight;
-  CHECK(straight.Trace({"G0 X0 Y0 Z0", "CIP X20 Y0 I1=10 J1=0 F100"}) == "RAPID X0 Y0 Z0\nALARM circle points of the arc lie on one line\n");
+  CHECK(straight.Trace({"G0 X0 Y0 Z0", "CIP X20 Y0 I1=10 J1=0 F100"}) ==
+        "RAPID X0 Y0 Z0\nALARM circle points of the arc lie on one line\n");
 }
 
 TEST_CASE_FIXTURE(RunFixture, "tangent arcs follow the path before them") {
   CHECK(Trace({"G0 X0 Y0", "G1 X10 F100", "CT X20 Y10", "CT X10 Y20"}) ==
-        "RAPID X0 Y0\nLINE X10 Y0 F100\nARC CCW XY X20 Y10 center (10,10) F100\nARC CCW XY X10 Y20 center (10,10) F100\n");
+        "RAPID X0 Y0\nLINE X10 Y0 F100\nARC CCW XY X20 Y10 center (10,10) F100\nARC CCW XY X10 Y20 center (10,10) "
+        "F100\n");
   RunFixture line;
   CHECK(line.Trace({"G0 X0 Y0", "G1 X10 F100", "CT X20 Y0"}) == "RAPID X0 Y0\nLINE X10 Y0 F100\nLINE X20 Y0 F100\n");
   RunFixture unknown;
@@ -64,12 +72,15 @@ TEST_CASE_FIXTURE(RunFixture, "lathe: I is a radius, absolute centres are diamet
 }
 
 TEST_CASE_FIXTURE(RunFixture, "radii that differ a little move the centre between the ends") {
-  CHECK(Trace({"G0 X10 Y0", "G3 X0 Y10.008 I-10 J0 F100"}) == "RAPID X10 Y0\nARC CCW XY X0 Y10.008 center (-0.003998,0.004002) F100\n");
+  CHECK(Trace({"G0 X10 Y0", "G3 X0 Y10.008 I-10 J0 F100"}) ==
+        "RAPID X10 Y0\nARC CCW XY X0 Y10.008 center (-0.003998,0.004002) F100\n");
   RunFixture kept;
   kept.machine.arc_center_corrected = false;
-  CHECK(kept.Trace({"G0 X10 Y0", "G3 X0 Y10.008 I-10 J0 F100"}) == "RAPID X10 Y0\nARC CCW XY X0 Y10.008 center (0,0) F100\n");
+  CHECK(kept.Trace({"G0 X10 Y0", "G3 X0 Y10.008 I-10 J0 F100"}) ==
+        "RAPID X10 Y0\nARC CCW XY X0 Y10.008 center (0,0) F100\n");
   RunFixture far;
-  CHECK(far.Trace({"G0 X10 Y0", "G3 X0 Y10.02 I-10 J0 F100"}) == "RAPID X10 Y0\nALARM circle radius is 10 at the start and 10.02 at the end\n");
+  CHECK(far.Trace({"G0 X10 Y0", "G3 X0 Y10.02 I-10 J0 F100"}) ==
+        "RAPID X10 Y0\nALARM circle radius is 10 at the start and 10.02 at the end\n");
 }
 
 TEST_CASE_FIXTURE(RunFixture, "alarms of arcs") {
@@ -89,11 +100,13 @@ TEST_CASE_FIXTURE(RunFixture, "alarms of arcs") {
 TEST_CASE_FIXTURE(RunFixture, "controls where the radius beats the centre and stays without an end point") {
   machine.arc_radius_beats_center = true;
   machine.arc_radius_without_end_stays = true;
-  CHECK(Trace({"G0 X-10 Y0", "G2 X-10 Y20 I99 J99 CR=10 F100", "G2 CR=10"}) == "RAPID X-10 Y0\nARC CW XY X-10 Y20 center (-10,10) F100\n");
+  CHECK(Trace({"G0 X-10 Y0", "G2 X-10 Y20 I99 J99 CR=10 F100", "G2 CR=10"}) ==
+        "RAPID X-10 Y0\nARC CW XY X-10 Y20 center (-10,10) F100\n");
 }
 
 TEST_CASE_FIXTURE(RunFixture, "a polar end point has the pole as centre") {
-  CHECK(Trace({"G0 X10 Y0", "G111 X0 Y0", "G3 AP=90 RP=10 F100"}) == "RAPID X10 Y0\nARC CCW XY X0 Y10 center (0,0) F100\n");
+  CHECK(Trace({"G0 X10 Y0", "G111 X0 Y0", "G3 AP=90 RP=10 F100"}) ==
+        "RAPID X10 Y0\nARC CCW XY X0 Y10 center (0,0) F100\n");
 }
 
 TEST_CASE("sweep of an arc") {

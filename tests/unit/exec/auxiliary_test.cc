@@ -1,6 +1,5 @@
 // Spindle, tool, offsets, M functions, messages, alarms, computed codes; the trace as text and JSON.
 #include <doctest/doctest.h>
-
 #include <nlohmann/json.hpp>
 
 #include "tests/unit/exec/run_fixture.h"
@@ -11,13 +10,15 @@ using ir::WordOp;
 
 TEST_CASE_FIXTURE(RunFixture, "functions before the motion, stops behind it (vector 44)") {
   CHECK(Trace({"G0 X0", "G1 X10 F200 S1000 M3", "G4F=2.5", "X20 M=8", "X30 M5", "M0", "X40 M1"}) ==
-        "RAPID X0\nSPINDLE RPM 1000\nSPINDLE CW\nLINE X10 F200\nDWELL 2.5\nM8\nLINE X20 F200\nLINE X30 F200\nSPINDLE STOP\nSTOP\nLINE X40 F200\nOPTSTOP\n");
+        "RAPID X0\nSPINDLE RPM 1000\nSPINDLE CW\nLINE X10 F200\nDWELL 2.5\nM8\nLINE X20 F200\nLINE X30 F200\nSPINDLE "
+        "STOP\nSTOP\nLINE X40 F200\nOPTSTOP\n");
 }
 
 TEST_CASE_FIXTURE(RunFixture, "the limit of the speed comes before the speed; a second spindle; positions") {
   machine = TestLathe();
   CHECK(Trace({"G96 S180 LIMS=2500 M4", "S2=300", "SPOS=90", "G0 X100 Z0", "G97", "G97 S500"}) ==
-        "SPINDLE LIMIT 2500\nSPINDLE CSS 180\nSPINDLE CCW\nSPINDLE2 RPM 300\nSPINDLE POS 90\nRAPID Xr50 Z0\nSPINDLE RPM 572.957795\nSPINDLE RPM 500\n");
+        "SPINDLE LIMIT 2500\nSPINDLE CSS 180\nSPINDLE CCW\nSPINDLE2 RPM 300\nSPINDLE POS 90\nRAPID Xr50 Z0\nSPINDLE "
+        "RPM 572.957795\nSPINDLE RPM 500\n");
 }
 
 TEST_CASE_FIXTURE(RunFixture, "a frozen surface speed needs the diameter, and the limit holds") {
@@ -26,7 +27,8 @@ TEST_CASE_FIXTURE(RunFixture, "a frozen surface speed needs the diameter, and th
   CHECK(result.outcome == Outcome::kRefused);
   RunFixture limited;
   limited.machine = TestLathe();
-  CHECK(limited.Trace({"G96 S180 LIMS=300", "G0 X10", "G97"}) == "SPINDLE LIMIT 300\nSPINDLE CSS 180\nRAPID Xr5\nSPINDLE RPM 300\n");
+  CHECK(limited.Trace({"G96 S180 LIMS=300", "G0 X10", "G97"}) ==
+        "SPINDLE LIMIT 300\nSPINDLE CSS 180\nRAPID Xr5\nSPINDLE RPM 300\n");
 }
 
 TEST_CASE_FIXTURE(RunFixture, "surface speed brings the feed per revolution; inch programs give feet") {
@@ -42,12 +44,17 @@ TEST_CASE_FIXTURE(RunFixture, "tools, edges and registers") {
   Line(program, "T4 D2");
   program.Block().Add(WordOp::kTool, e.Text("MILL_10")).Finish();
   Line(program, "D0 M6");
-  program.Block().Add(WordOp::kLengthOffset, {}, 1).Add(WordOp::kLengthOffset, N("5")).Add(WordOp::kRadiusOffset, N("7")).Finish();
+  program.Block()
+      .Add(WordOp::kLengthOffset, {}, 1)
+      .Add(WordOp::kLengthOffset, N("5"))
+      .Add(WordOp::kRadiusOffset, N("7"))
+      .Finish();
   program.Block().Add(WordOp::kLengthOffset).Add(WordOp::kToolOffset, N("3")).Finish();
   Line(program, "M30");
   program.Finish();
   CHECK(Run() ==
-        "TOOL 3\nOFFSET EDGE 1\nTOOL 4\nOFFSET EDGE 2\nTOOL \"MILL_10\"\nOFFSET EDGE 1\nOFFSET NONE\nM6\nOFFSET LENGTH 5\nOFFSET RADIUS 7\n"
+        "TOOL 3\nOFFSET EDGE 1\nTOOL 4\nOFFSET EDGE 2\nTOOL \"MILL_10\"\nOFFSET EDGE 1\nM6\nOFFSET NONE\nOFFSET LENGTH "
+        "5\nOFFSET RADIUS 7\n"
         "OFFSET NONE\nOFFSET 3\nEND\n");
 }
 
@@ -63,15 +70,17 @@ TEST_CASE_FIXTURE(RunFixture, "alarms by number: some only show") {
   program.Block()
       .Add(WordOp::kAlarm, texts.N("1"), static_cast<std::uint8_t>(ir::AlarmKind::kShows), texts.e.Text("look").value)
       .Add(WordOp::kPrint, texts.e.Text("printed"))
-      .Add(WordOp::kAlarm, texts.N("3021"), static_cast<std::uint8_t>(ir::AlarmKind::kStops), texts.e.Text("DIAMETER MISSING").value)
+      .Add(WordOp::kAlarm, texts.N("3021"), static_cast<std::uint8_t>(ir::AlarmKind::kStops),
+           texts.e.Text("DIAMETER MISSING").value)
       .Finish();
   program.Finish();
   CHECK(texts.Run() == "MSG look\nPRINT printed\nALARM 3021 DIAMETER MISSING\n");
 }
 
 TEST_CASE_FIXTURE(RunFixture, "codes that are computed mean what the table of the machine says") {
-  machine.g_codes = {{0, WordOp::kMotion, static_cast<std::uint8_t>(ir::Motion::kRapid), Id<void>::kNone, ir::Phase::kSetting},
-                     {541, WordOp::kWorkOffset, 0, 54, ir::Phase::kSetting}};
+  machine.g_codes = {
+      {0, WordOp::kMotion, static_cast<std::uint8_t>(ir::Motion::kRapid), Id<void>::kNone, ir::Phase::kSetting},
+      {541, WordOp::kWorkOffset, 0, 54, ir::Phase::kSetting}};
   machine.m_codes = {{50, WordOp::kSpindle, 0, static_cast<std::uint32_t>(ir::SpindleState::kStop), ir::Phase::kAfter},
                      {300, WordOp::kProgramEnd, 0, 30, ir::Phase::kLast}};
   ir::ProgramBuilder program(module, "MAIN");

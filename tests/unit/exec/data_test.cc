@@ -52,9 +52,13 @@ TEST_CASE("numbers by type") {
 }
 
 TEST_CASE("operands that are rounded first, functions out of their domain") {
-  CHECK(Result([](RunFixture& f) { return f.e.Binary(ExprOp::kModulo, f.N("7"), f.N("4.1"), ir::Expr::kOperandsToInt); }) == "3");
-  CHECK(Result([](RunFixture& f) { return f.e.Function(Function::kSqrt, {f.N("-1")}); }).starts_with("ALARM arithmetic"));
-  CHECK(Result([](RunFixture& f) { return f.e.Function(Function::kSquare, {f.e.Unary(ExprOp::kNegate, f.N("3"))}); }) == "9");
+  CHECK(Result([](RunFixture& f) {
+          return f.e.Binary(ExprOp::kModulo, f.N("7"), f.N("4.1"), ir::Expr::kOperandsToInt);
+        }) == "3");
+  CHECK(
+      Result([](RunFixture& f) { return f.e.Function(Function::kSqrt, {f.N("-1")}); }).starts_with("ALARM arithmetic"));
+  CHECK(Result([](RunFixture& f) { return f.e.Function(Function::kSquare, {f.e.Unary(ExprOp::kNegate, f.N("3"))}); }) ==
+        "9");
 }
 
 TEST_CASE("comparisons with a relative tolerance (vector 08), and exact ones") {
@@ -77,8 +81,9 @@ TEST_CASE("logic takes any number as truth") {
   CHECK(logic(ExprOp::kOr, "0", "0") == "0");
   CHECK(logic(ExprOp::kXor, "2", "3") == "0");
   // AND evaluates both sides, so an error on the right is one even when the left decides.
-  CHECK(Result([](RunFixture& f) { return f.e.Binary(ExprOp::kAnd, f.N("0"), f.e.Binary(ExprOp::kDivide, f.N("1"), f.N("0"))); }) ==
-        "ALARM arithmetic division by zero");
+  CHECK(Result([](RunFixture& f) {
+          return f.e.Binary(ExprOp::kAnd, f.N("0"), f.e.Binary(ExprOp::kDivide, f.N("1"), f.N("0")));
+        }) == "ALARM arithmetic division by zero");
 }
 
 TEST_CASE("vacant values: copies keep them, arithmetic takes zero where the language says so") {
@@ -89,7 +94,8 @@ TEST_CASE("vacant values: copies keep them, arithmetic takes zero where the lang
   CHECK(vacant(0) == "operand is empty here");
   CHECK(Result([](RunFixture& f) { return f.e.Vacant(); }) == "vacant");
   const auto equal = [](ExprOp op, bool left_vacant, std::uint8_t flags) {
-    return Result([&](RunFixture& f) { return f.e.Binary(op, left_vacant ? f.e.Vacant() : f.N("0"), f.e.Vacant(), flags); });
+    return Result(
+        [&](RunFixture& f) { return f.e.Binary(op, left_vacant ? f.e.Vacant() : f.N("0"), f.e.Vacant(), flags); });
   };
   CHECK(equal(ExprOp::kEqual, true, ir::Expr::kVacantDiffers) == "1");
   CHECK(equal(ExprOp::kEqual, false, ir::Expr::kVacantDiffers) == "0");
@@ -100,7 +106,11 @@ TEST_CASE("vacant values: copies keep them, arithmetic takes zero where the lang
 
 TEST_CASE_FIXTURE(RunFixture, "assignments act from left to right, before the motion of their block (vector 01)") {
   ir::ProgramBuilder program(module, "MAIN");
-  program.Block().Assign(R(1), N("5")).Assign(R(2), Add(R(1), N("1"))).Assign(R(1), e.Binary(ExprOp::kMultiply, R(2), N("2"))).Finish();
+  program.Block()
+      .Assign(R(1), N("5"))
+      .Assign(R(2), Add(R(1), N("1")))
+      .Assign(R(1), e.Binary(ExprOp::kMultiply, R(2), N("2")))
+      .Finish();
   program.Block().Axis(0, R(1)).Motion(ir::Motion::kRapid).Assign(R(1), N("1")).Axis(1, R(1)).Finish();
   Line(program, "M30");
   program.Finish();
@@ -110,7 +120,10 @@ TEST_CASE_FIXTURE(RunFixture, "assignments act from left to right, before the mo
 TEST_CASE_FIXTURE(RunFixture, "REAL to INT and cell numbers round, indices out of range are alarms (vectors 05, 51)") {
   ir::ProgramBuilder program(module, "MAIN");
   const ir::VariableId whole = program.Local("KB", Type::kInt);
-  program.Block().Assign(e.Variable(whole), N("2.5")).Assign(e.CellAt(r, N("1.6")), e.Unary(ExprOp::kNegate, N("2.6"))).Finish();
+  program.Block()
+      .Assign(e.Variable(whole), N("2.5"))
+      .Assign(e.CellAt(r, N("1.6")), e.Unary(ExprOp::kNegate, N("2.6")))
+      .Finish();
   program.Block().Assign(e.CellAt(r, R(2)), N("1")).Finish();
   program.Finish();
   options.report_variables = true;
@@ -131,7 +144,8 @@ TEST_CASE_FIXTURE(RunFixture, "definitions: start values, limits, lists in order
   for (const ir::ExprId item : {N("1"), N("2"), ir::ExprId{}, N("4")}) module.expr_items.push_back(item);
   list.values.count = 4;
   module.variables[table].initial_list = module.assign_lists.Add(list);
-  for (const ir::VariableId id : {table, limited, preset}) program.Block().Add(WordOp::kDefine, {}, 0, id.value).Finish();
+  for (const ir::VariableId id : {table, limited, preset})
+    program.Block().Add(WordOp::kDefine, {}, 0, id.value).Finish();
   ir::AssignList repeat;
   repeat.place = e.Element(table, {I("1"), I("1")});
   repeat.repeat = true;
@@ -142,7 +156,8 @@ TEST_CASE_FIXTURE(RunFixture, "definitions: start values, limits, lists in order
   program.Finish();
   options.report_variables = true;
   CHECK(Run() ==
-        "ALARM range value of LIM is above its limit\nSET TB[0,0] 1\nSET TB[0,1] 2\nSET TB[0,2] 0\nSET TB[1,0] 4\nSET TB[1,1] 7\nSET TB[1,2] 7\n"
+        "ALARM range value of LIM is above its limit\nSET TB[0,0] 1\nSET TB[0,1] 2\nSET TB[0,2] 0\nSET TB[1,0] 4\nSET "
+        "TB[1,1] 7\nSET TB[1,2] 7\n"
         "SET LIM 3\nSET PRE 1.5\n");
 }
 
@@ -165,7 +180,13 @@ TEST_CASE_FIXTURE(RunFixture, "values given from outside beat definitions, argum
   module.variables[local].initial = N("6");
   program.Block().Add(WordOp::kDefine, {}, 0, local.value).Finish();
   program.Block().Add(WordOp::kMessage, e.Variable(text)).Finish();
-  program.Block().Motion(ir::Motion::kRapid).Axis(0, e.Variable(first)).Axis(1, e.Variable(second)).Axis(2, e.Variable(local)).Axis(3, R(3)).Finish();
+  program.Block()
+      .Motion(ir::Motion::kRapid)
+      .Axis(0, e.Variable(first))
+      .Axis(1, e.Variable(second))
+      .Axis(2, e.Variable(local))
+      .Axis(3, R(3))
+      .Finish();
   Line(program, "M17");
   program.Finish();
   options.is_call = true;
@@ -178,7 +199,9 @@ TEST_CASE_FIXTURE(RunFixture, "texts (vector 45)") {
   ir::ProgramBuilder program(module, "MAIN");
   const ir::VariableId text = program.Local("TXT", Type::kString);
   module.variables[text].string_length = 40;
-  const auto tail = [&](std::initializer_list<ir::ExprId> arguments) { return e.Function(Function::kSubstring, arguments, Type::kString); };
+  const auto tail = [&](std::initializer_list<ir::ExprId> arguments) {
+    return e.Function(Function::kSubstring, arguments, Type::kString);
+  };
   const auto join = [&](ir::ExprId a, ir::ExprId b) { return e.Binary(ExprOp::kConcat, a, b); };
   const auto variable = [&] { return e.Variable(text); };
   program.Block().Assign(variable(), join(join(join(e.Text("i:"), I("2")), e.Text("/v:")), N("9.654"))).Finish();
@@ -220,7 +243,9 @@ TEST_CASE_FIXTURE(RunFixture, "a loop that builds texts stays inside its budget"
   const ir::VariableId text = program.Local("TXT", Type::kString);
   module.variables[text].string_length = 100;
   program.Block().For(R(1), N("1"), N("60000")).Finish();
-  program.Block().Assign(e.Variable(text), e.Binary(ExprOp::kConcat, e.Text("a text of some length, number "), R(1))).Finish();
+  program.Block()
+      .Assign(e.Variable(text), e.Binary(ExprOp::kConcat, e.Text("a text of some length, number "), R(1)))
+      .Finish();
   program.Block().Add(WordOp::kEndFor).Finish();
   program.Block().Add(WordOp::kMessage, e.Variable(text)).Finish();
   Line(program, "M30");
@@ -258,7 +283,8 @@ TEST_CASE_FIXTURE(RunFixture, "budgets of variables") {
 TEST_CASE_FIXTURE(RunFixture, "what only the machine knows is asked, and refused without an answer") {
   struct Asked final : Environment {
     std::string asked;
-    std::optional<Value> Read(const ir::System&, std::string_view name, const Value* indices, std::size_t count) override {
+    std::optional<Value> Read(const ir::System&, std::string_view name, const Value* indices,
+                              std::size_t count) override {
       asked += fmt::format("{}[{}] ", name, count > 0 ? indices[0].number : -1);
       return Value::Real(12.5);
     }
@@ -324,12 +350,17 @@ TEST_CASE_FIXTURE(RunFixture, "system variables that follow from the program") {
   CHECK(Finding() == "$P_EP is known only to the machine");
   module.blocks[ir::BlockId{std::size_t{2}}].words = {};
   machine.file_end_is_end = true;
-  CHECK(Run().ends_with("END\nSET R1 1\nSET R2 1\nSET R3 2\nSET R4 10\nSET R5 800\nSET R6 5\nSET R7 2\nSET R8 1\nSET R9 0\nSET R10 3\n"));
+  CHECK(Run().ends_with(
+      "END\nSET R1 1\nSET R2 1\nSET R3 2\nSET R4 10\nSET R5 800\nSET R6 5\nSET R7 2\nSET R8 1\nSET R9 0\nSET R10 3\n"));
 }
 
 TEST_CASE_FIXTURE(RunFixture, "coverage: blocks, branches, cells read first, quotients") {
   ir::ProgramBuilder program(module, "MAIN");
-  program.Block().Assign(R(1), R(2)).Assign(R(2), R(2)).Assign(R(3), e.Binary(ExprOp::kDivideInteger, N("7"), N("2"))).Finish();
+  program.Block()
+      .Assign(R(1), R(2))
+      .Assign(R(2), R(2))
+      .Assign(R(3), e.Binary(ExprOp::kDivideInteger, N("7"), N("2")))
+      .Finish();
   program.Block().Jump("A", ir::Search::kForward, e.Binary(ExprOp::kGreater, R(3), N("5"))).Finish();
   Line(program, "M30");
   Words(program.Block().Label("A"), "G0 X1").Finish();
@@ -353,7 +384,10 @@ TEST_CASE_FIXTURE(RunFixture, "cells whose start value nobody knows are refused 
 TEST_CASE_FIXTURE(RunFixture, "stores of the eight digit rule") {
   machine.numeric_model = ir::NumericModel::kNum8;
   ir::ProgramBuilder program(module, "MAIN");
-  program.Block().Assign(R(1), e.Binary(ExprOp::kDivide, N("200"), N("3"))).Assign(R(2), e.Binary(ExprOp::kMultiply, R(1), N("3"))).Finish();
+  program.Block()
+      .Assign(R(1), e.Binary(ExprOp::kDivide, N("200"), N("3")))
+      .Assign(R(2), e.Binary(ExprOp::kMultiply, R(1), N("3")))
+      .Finish();
   program.Block().Assign(R(3), Add(N("99999999"), N("1"))).Finish();
   program.Finish();
   options.report_variables = true;

@@ -21,7 +21,9 @@ void Show(RunFixture& f, ir::ProgramBuilder& program, std::uint8_t axis = 0) {
 ir::ExprId Compare(RunFixture& f, ir::ExprOp op, ir::ExprId left, std::string_view right) {
   return f.e.Binary(op, left, f.N(right), ir::Expr::kTolerance);
 }
-void Mark(ir::ProgramBuilder& program, WordOp op, ir::ExprId condition = {}) { program.Block().Add(op, condition).Finish(); }
+void Mark(ir::ProgramBuilder& program, WordOp op, ir::ExprId condition = {}) {
+  program.Block().Add(op, condition).Finish();
+}
 
 }  // namespace
 
@@ -93,7 +95,8 @@ TEST_CASE_FIXTURE(RunFixture, "a computed target is a label or a block number") 
   CHECK(run([](RunFixture& f) { return f.e.Text("N41"); }) == "ALARM target jump target N41 not found\n");
 }
 
-TEST_CASE_FIXTURE(RunFixture, "a switch rounds its value and takes the first arm that agrees, or the default (vector 14)") {
+TEST_CASE_FIXTURE(RunFixture,
+                  "a switch rounds its value and takes the first arm that agrees, or the default (vector 14)") {
   ir::ProgramBuilder program(module, "MAIN");
   const auto jump = [&](std::string_view label) {
     ir::Jump record;
@@ -160,9 +163,11 @@ TEST_CASE_FIXTURE(RunFixture, "a counting loop includes its end; start over the 
   const auto nothing = [](RunFixture&) {};
   CHECK(run("1", "3", nothing) == "RAPID X1\nRAPID X2\nRAPID X3\nRAPID X3 Y4\nEND\n");
   CHECK(run("5", "4", nothing) == "RAPID Y5\nEND\n");
-  CHECK(run("1", "3", [](RunFixture& f) { f.machine.for_end_once = false; }) == "RAPID X1\nRAPID X2\nRAPID X2 Y3\nEND\n");
+  CHECK(run("1", "3", [](RunFixture& f) { f.machine.for_end_once = false; }) ==
+        "RAPID X1\nRAPID X2\nRAPID X2 Y3\nEND\n");
   CHECK(run("1.6", "3", nothing) == "RAPID X2\nRAPID X3\nRAPID X3 Y4\nEND\n");
-  CHECK(run("1.6", "3", [](RunFixture& f) { f.machine.for_counter_rounds = false; }) == "RAPID X1.6\nRAPID X2.6\nRAPID X2.6 Y3.6\nEND\n");
+  CHECK(run("1.6", "3", [](RunFixture& f) { f.machine.for_counter_rounds = false; }) ==
+        "RAPID X1.6\nRAPID X2.6\nRAPID X2.6 Y3.6\nEND\n");
 }
 
 TEST_CASE_FIXTURE(RunFixture, "parts run again: one block, two labels, up to the end label (vectors 19, 20, 21, 65)") {
@@ -213,7 +218,8 @@ namespace {
 
 /// MAIN calls SUB, which is built by `body`; MAIN then moves to R1.
 template <class Body>
-std::string CallOnce(RunFixture& f, Body body, std::initializer_list<ir::ExprId> arguments = {}, ir::ExprId passes = {}) {
+std::string CallOnce(RunFixture& f, Body body, std::initializer_list<ir::ExprId> arguments = {},
+                     ir::ExprId passes = {}) {
   ir::ProgramBuilder sub(f.module, "SUB", ir::ProgramKind::kSub);
   body(sub);
   sub.Finish();
@@ -238,7 +244,9 @@ TEST_CASE_FIXTURE(RunFixture, "passes: locals are new in each, the range of the 
   };
   CHECK(CallOnce(*this, body, {}, N("3")) == "RAPID Y1\nRAPID Y1\nRAPID Y1\nRAPID X3 Y1\nEND\n");
   RunFixture none;
-  CHECK(CallOnce(none, [&](ir::ProgramBuilder& sub) { none.Line(sub, "M17"); }, {}, none.N("0")) == "ALARM range 0 passes\n");
+  CHECK(CallOnce(
+            none, [&](ir::ProgramBuilder& sub) { none.Line(sub, "M17"); }, {}, none.N("0")) ==
+        "ALARM range 0 passes\n");
 }
 
 TEST_CASE_FIXTURE(RunFixture, "arguments: by value with defaults, each pass gets them again (vector 23)") {
@@ -247,11 +255,14 @@ TEST_CASE_FIXTURE(RunFixture, "arguments: by value with defaults, each pass gets
     const ir::VariableId y = sub.Parameter("PY");
     const ir::VariableId z = sub.Parameter("PZ", ir::Type::kInt);
     module.variables[y].initial = N("7");
-    Words(sub.Block().Motion(ir::Motion::kRapid).Axis(0, e.Variable(x)).Axis(1, e.Variable(y)).Axis(2, e.Variable(z)), "").Finish();
+    Words(sub.Block().Motion(ir::Motion::kRapid).Axis(0, e.Variable(x)).Axis(1, e.Variable(y)).Axis(2, e.Variable(z)),
+          "")
+        .Finish();
     sub.Block().Assign(e.Variable(x), N("99")).Finish();
     Line(sub, "M17");
   };
-  CHECK(CallOnce(*this, body, {N("1"), {}, N("2.5")}, N("2")) == "RAPID X1 Y7 Z3\nRAPID X1 Y7 Z3\nRAPID X0 Y7 Z3\nEND\n");
+  CHECK(CallOnce(*this, body, {N("1"), {}, N("2.5")}, N("2")) ==
+        "RAPID X1 Y7 Z3\nRAPID X1 Y7 Z3\nRAPID X0 Y7 Z3\nEND\n");
 }
 
 TEST_CASE_FIXTURE(RunFixture, "by reference: variables, elements, whole arrays, cells (vectors 24, 25)") {
@@ -268,7 +279,12 @@ TEST_CASE_FIXTURE(RunFixture, "by reference: variables, elements, whole arrays, 
   const ir::VariableId vector = program.Local("VEC", ir::Type::kReal, dimensions);
   program.Block().Call(sub.Id(), {R(5), e.Variable(vector)}).Finish();
   program.Block().Call(sub.Id(), {e.Element(vector, {I("0")}), e.Variable(vector)}).Finish();
-  program.Block().Motion(ir::Motion::kRapid).Axis(0, R(5)).Axis(1, e.Element(vector, {I("0")})).Axis(2, e.Element(vector, {I("2")})).Finish();
+  program.Block()
+      .Motion(ir::Motion::kRapid)
+      .Axis(0, R(5))
+      .Axis(1, e.Element(vector, {I("0")}))
+      .Axis(2, e.Element(vector, {I("2")}))
+      .Finish();
   program.Block().Call(sub.Id(), {}).Finish();
   Line(program, "M30");
   program.Finish();
@@ -299,7 +315,8 @@ TEST_CASE_FIXTURE(RunFixture, "modal state stays as the subprogram left it, or i
   CHECK(run(true) == "RAPID X10\nRAPID X11\nPATH CONTINUOUS\nPATH EXACT\nRAPID X5\nLINE X6 F5\nEND\n");
 }
 
-TEST_CASE_FIXTURE(RunFixture, "an end word in a called program returns; return words in the main program end it or start it again") {
+TEST_CASE_FIXTURE(
+    RunFixture, "an end word in a called program returns; return words in the main program end it or start it again") {
   CHECK(CallOnce(*this, [&](ir::ProgramBuilder& sub) { Line(sub, "G0 Y1 M30"); }) == "RAPID Y1\nRAPID X0 Y1\nEND\n");
   RunFixture total;
   total.machine.end_in_called_program_returns = false;
@@ -373,7 +390,8 @@ TEST_CASE_FIXTURE(RunFixture, "calls too deep, programs that nobody has, names t
   CHECK(named.Finding() == "program OTHER was not found");
 }
 
-TEST_CASE_FIXTURE(RunFixture, "a modal call runs after each block with motion, also in called programs (vectors 28, 63)") {
+TEST_CASE_FIXTURE(RunFixture,
+                  "a modal call runs after each block with motion, also in called programs (vectors 28, 63)") {
   ir::ProgramBuilder drill(module, "DRILL", ir::ProgramKind::kSub);
   const ir::VariableId depth = drill.Parameter("DEPTH");
   const ir::VariableId count = drill.Local("COUNT", ir::Type::kInt);
@@ -404,10 +422,13 @@ TEST_CASE_FIXTURE(RunFixture, "a modal call runs after each block with motion, a
   options.entry = program.Id();
   // The argument was taken once; COUNT keeps its value between the runs; the moves of DRILL do not start it again.
   const std::string expected =
-      "RAPID X0\nRAPID X1\nLINE X1 Z-2 F100\nRAPID X1 Z1\nM8\nRAPID X5 Z1\nLINE X5 Z-2 F100\nRAPID X5 Z2\nRAPID X9 Z2\nEND\n";
+      "RAPID X0\nRAPID X1\nLINE X1 Z-2 F100\nRAPID X1 Z1\nM8\nRAPID X5 Z1\nLINE X5 Z-2 F100\nRAPID X5 Z2\nRAPID X9 "
+      "Z2\nEND\n";
   CHECK(Run() == expected);
   machine.modal_call_keeps_locals = false;
-  CHECK(Run() == "RAPID X0\nRAPID X1\nLINE X1 Z-2 F100\nRAPID X1 Z1\nM8\nRAPID X5 Z1\nLINE X5 Z-2 F100\nRAPID X5 Z1\nRAPID X9 Z1\nEND\n");
+  CHECK(Run() ==
+        "RAPID X0\nRAPID X1\nLINE X1 Z-2 F100\nRAPID X1 Z1\nM8\nRAPID X5 Z1\nLINE X5 Z-2 F100\nRAPID X5 Z1\nRAPID X9 "
+        "Z1\nEND\n");
 }
 
 TEST_CASE_FIXTURE(RunFixture, "a block with motion and end word: the modal subprogram runs before the end") {
@@ -538,7 +559,10 @@ TEST_CASE_FIXTURE(RunFixture, "refused blocks stop the run only when they are re
     RunFixture f;
     ir::ProgramBuilder program(f.module, "MAIN");
     if (!reach) program.Block().Jump("OVER", Search::kForward).Finish();
-    program.Block().Flags(ir::Block::kRefused).Add(WordOp::kVerbatim, {}, 0, f.module.strings.Intern("?").value).Finish();
+    program.Block()
+        .Flags(ir::Block::kRefused)
+        .Add(WordOp::kVerbatim, {}, 0, f.module.strings.Intern("?").value)
+        .Finish();
     f.Words(program.Block().Label("OVER"), "G0 X1 M30").Finish();
     program.Finish();
     return std::pair(f.Run(), f.result.outcome);
@@ -562,7 +586,8 @@ TEST_CASE_FIXTURE(RunFixture, "events know the calls that lead to them and their
     std::string seen;
     bool OnEvent(const Event& event) override {
       if (event.frames == nullptr || event.kind != EventKind::kRapid) return true;
-      for (std::uint32_t i = 0; i < event.frames->depth; ++i) seen += fmt::format("{}x{} ", event.frames->call_blocks[i].value, event.frames->turns[i]);
+      for (std::uint32_t i = 0; i < event.frames->depth; ++i)
+        seen += fmt::format("{}x{} ", event.frames->call_blocks[i].value, event.frames->turns[i]);
       seen += fmt::format("{}x{};", event.block.value, event.frames->turns[event.frames->depth]);
       return true;
     }

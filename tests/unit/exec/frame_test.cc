@@ -6,8 +6,8 @@
 namespace ncport::exec {
 
 TEST_CASE_FIXTURE(RunFixture, "TRANS replaces the frame, ATRANS adds; increments do not traverse it (vector 39)") {
-  CHECK(Trace({"G0 X1 Y1", "TRANS X100 Y20", "X2 Y2", "ATRANS X10", "X2", "TRANS Y5", "X3 Y3", "TRANS", "X4 Y4", "TRANS X50", "G91 X1",
-               "G90 X1"}) ==
+  CHECK(Trace({"G0 X1 Y1", "TRANS X100 Y20", "X2 Y2", "ATRANS X10", "X2", "TRANS Y5", "X3 Y3", "TRANS", "X4 Y4",
+               "TRANS X50", "G91 X1", "G90 X1"}) ==
         "RAPID X1 Y1\nRAPID X102 Y22\nRAPID X112 Y22\nRAPID X3 Y8\nRAPID X4 Y4\nRAPID X5 Y4\nRAPID X51 Y4\n");
 }
 
@@ -27,8 +27,8 @@ TEST_CASE_FIXTURE(RunFixture, "SCALE and MIRROR; a mirror turns arcs around (vec
 }
 
 TEST_CASE_FIXTURE(RunFixture, "several angles turn about Z, the new Y, the new X (vector 62)") {
-  CHECK(Trace({"ROT X90 Z90", "G0 X1 Y2 Z3", "ROT Z90 X90", "G0 X1 Y2 Z0", "ROT X90 Y90", "G0 X1 Y2 Z3", "ROT", "G0 X0 Y0 Z0"}) ==
-        "RAPID X3 Y1 Z2\nRAPID X0 Y1 Z2\nRAPID X2 Y-3 Z-1\nRAPID X0 Y0 Z0\n");
+  CHECK(Trace({"ROT X90 Z90", "G0 X1 Y2 Z3", "ROT Z90 X90", "G0 X1 Y2 Z0", "ROT X90 Y90", "G0 X1 Y2 Z3", "ROT",
+               "G0 X0 Y0 Z0"}) == "RAPID X3 Y1 Z2\nRAPID X0 Y1 Z2\nRAPID X2 Y-3 Z-1\nRAPID X0 Y0 Z0\n");
 }
 
 TEST_CASE_FIXTURE(RunFixture, "an additive word alone changes nothing") {
@@ -40,7 +40,8 @@ TEST_CASE_FIXTURE(RunFixture, "a mirror exchanges the sides of the compensation"
 }
 
 TEST_CASE_FIXTURE(RunFixture, "arcs in a turned plane, and planes that no arc of the trace has") {
-  CHECK(Trace({"ROT X90", "G0 X10 Y0 Z0", "G3 X0 Y10 I-10 J0 F100"}) == "RAPID X10 Y0 Z0\nARC CW ZX X0 Y0 Z10 center (0,0) F100\n");
+  CHECK(Trace({"ROT X90", "G0 X10 Y0 Z0", "G3 X0 Y10 I-10 J0 F100"}) ==
+        "RAPID X10 Y0 Z0\nARC CW ZX X0 Y0 Z10 center (0,0) F100\n");
   RunFixture turned;
   CHECK(turned.Trace({"TRANS X5", "AROT RPL=90", "G0 X10 Y0", "G3 X0 Y10 I-10 J0 F100"}) ==
         "RAPID X5 Y10\nARC CCW XY X-5 Y0 center (5,0) F100\n");

@@ -24,8 +24,10 @@ TEST_CASE_FIXTURE(RunFixture, "an increment from an unknown position is refused 
   CHECK(Finding() == "increment for X from an unknown position");
 }
 
-TEST_CASE_FIXTURE(RunFixture, "the distance mode holds for the block whatever the order of words, and words override it") {
-  CHECK(Trace({"G0 X10 Y10", "X5 G91", "X1 Y=AC(3)", "G90 X=IC(-2)"}) == "RAPID X10 Y10\nRAPID X15 Y10\nRAPID X16 Y3\nRAPID X14 Y3\n");
+TEST_CASE_FIXTURE(RunFixture,
+                  "the distance mode holds for the block whatever the order of words, and words override it") {
+  CHECK(Trace({"G0 X10 Y10", "X5 G91", "X1 Y=AC(3)", "G90 X=IC(-2)"}) ==
+        "RAPID X10 Y10\nRAPID X15 Y10\nRAPID X16 Y3\nRAPID X14 Y3\n");
 }
 
 TEST_CASE_FIXTURE(RunFixture, "inch of the geometry leaves the feed, inch of everything takes it along (vector 50)") {
@@ -33,12 +35,15 @@ TEST_CASE_FIXTURE(RunFixture, "inch of the geometry leaves the feed, inch of eve
         "RAPID X25.4 Y0\nRAPID X50.8 Y25.4\nLINE X25.4 Y25.4 F100\nLINE X76.2 Y25.4 F254\nLINE X100 Y25.4 F100\n");
 }
 
-TEST_CASE_FIXTURE(RunFixture, "a rotary axis has no inches") { CHECK(Trace({"G700 G0 X1 C90"}) == "RAPID X25.4 C90\n"); }
+TEST_CASE_FIXTURE(RunFixture, "a rotary axis has no inches") {
+  CHECK(Trace({"G700 G0 X1 C90"}) == "RAPID X25.4 C90\n");
+}
 
 TEST_CASE_FIXTURE(RunFixture, "diameter modes (vector 36)") {
   machine = TestLathe();
-  CHECK(Trace({"G0 X40 Z2", "G1 X30 Z0 F100", "G91 X4", "DIAM90", "X4", "G90 X50", "DIAMOF", "X10"}) ==
-        "RAPID Xr20 Z2\nLINE Xr15 Z0 F100\nLINE Xr17 Z0 F100\nLINE Xr21 Z0 F100\nLINE Xr25 Z0 F100\nLINE X10 Z0 F100\n");
+  CHECK(
+      Trace({"G0 X40 Z2", "G1 X30 Z0 F100", "G91 X4", "DIAM90", "X4", "G90 X50", "DIAMOF", "X10"}) ==
+      "RAPID Xr20 Z2\nLINE Xr15 Z0 F100\nLINE Xr17 Z0 F100\nLINE Xr21 Z0 F100\nLINE Xr25 Z0 F100\nLINE X10 Z0 F100\n");
 }
 
 TEST_CASE_FIXTURE(RunFixture, "words of one axis choose diameter or radius themselves") {
@@ -70,7 +75,8 @@ TEST_CASE_FIXTURE(RunFixture, "forms of the feed, and the feed of one block") {
 }
 
 TEST_CASE_FIXTURE(RunFixture, "rotary positions of one direction lie in 0 to 359.999") {
-  CHECK(Trace({"G0 C=ACP(10)", "C=DC(350)", "C=ACN(360)"}) == "RAPID C10\nRAPID C350\nALARM range rotary position outside 0 to 359.999\n");
+  CHECK(Trace({"G0 C=ACP(10)", "C=DC(350)", "C=ACN(360)"}) ==
+        "RAPID C10\nRAPID C350\nALARM range rotary position outside 0 to 359.999\n");
 }
 
 TEST_CASE_FIXTURE(RunFixture, "computed words round or cut on their way to the axis, literals do not") {
@@ -103,7 +109,8 @@ TEST_CASE_FIXTURE(RunFixture, "a vacant value makes its word vanish, zero does n
 }
 
 TEST_CASE_FIXTURE(RunFixture, "machine coordinates and reference points leave a position that nobody knows") {
-  CHECK(Trace({"G0 X5 Y5 Z5", "SUPA Z0", "X6", "G74 X0", "Y7"}) == "RAPID X5 Y5 Z5\nRAPID MCS Z0\nRAPID X6 Y5\nREFPOINT X\nRAPID Y7\n");
+  CHECK(Trace({"G0 X5 Y5 Z5", "SUPA Z0", "X6", "G74 X0", "Y7"}) ==
+        "RAPID X5 Y5 Z5\nRAPID MCS Z0\nRAPID X6 Y5\nREFPOINT X\nRAPID Y7\n");
   RunFixture after;
   after.Trace({"G0 Z5", "SUPA Z0", "G91 Z1"});
   CHECK(after.Finding() == "increment for Z from an unknown position");
@@ -112,7 +119,8 @@ TEST_CASE_FIXTURE(RunFixture, "machine coordinates and reference points leave a 
   CHECK(feed.result.outcome == Outcome::kRefused);
 }
 
-TEST_CASE_FIXTURE(RunFixture, "another work offset: the old coordinates still show, but nothing is computed from them") {
+TEST_CASE_FIXTURE(RunFixture,
+                  "another work offset: the old coordinates still show, but nothing is computed from them") {
   CHECK(Trace({"G54 G0 X5 Z9", "G55 X6", "G91 X1"}) == "WCS 54\nRAPID X5 Z9\nWCS 55\nRAPID X6 Z9\nRAPID X7 Z9\n");
   RunFixture after;
   after.Trace({"G54 G0 X5 Z9", "G55 G91 Z1"});
@@ -127,8 +135,10 @@ TEST_CASE_FIXTURE(RunFixture, "path modes and compensation are shown when they c
 }
 
 TEST_CASE_FIXTURE(RunFixture, "threads and taps") {
-  CHECK(Trace({"G0 X20 Z5", "G33 Z-10 K1.5 SF=90", "Z-20 K1.5", "G34 Z-30 K2 F0.1", "G35 Z-40 K2 F0.1", "G331 Z-50 K-1.25", "G0 Z5"}) ==
-        "RAPID X20 Z5\nTHREAD X20 Z-10 pitch 1.5 start 90\nTHREAD X20 Z-20 pitch 1.5\nTHREAD X20 Z-30 pitch 2 change 0.1\n"
+  CHECK(Trace({"G0 X20 Z5", "G33 Z-10 K1.5 SF=90", "Z-20 K1.5", "G34 Z-30 K2 F0.1", "G35 Z-40 K2 F0.1",
+               "G331 Z-50 K-1.25", "G0 Z5"}) ==
+        "RAPID X20 Z5\nTHREAD X20 Z-10 pitch 1.5 start 90\nTHREAD X20 Z-20 pitch 1.5\nTHREAD X20 Z-30 pitch 2 change "
+        "0.1\n"
         "THREAD X20 Z-40 pitch 2 change -0.1\nTAP X20 Z-50 pitch -1.25\nRAPID X20 Z5\n");
   RunFixture lead;
   CHECK(lead.Trace({"G0 Z5", "G33 Z-10"}) == "RAPID Z5\nALARM geometry thread without a lead\n");
@@ -137,7 +147,8 @@ TEST_CASE_FIXTURE(RunFixture, "threads and taps") {
 TEST_CASE_FIXTURE(RunFixture, "the lead of a thread is F on some controls, and the centre word its change") {
   machine.thread_lead_from_feed = true;
   machine.start.feed_mode = ir::FeedMode::kPerRevolution;
-  CHECK(Trace({"G0 Z5", "G33 Z-10 F1.5", "G34 Z-20 F2 K0.1"}) == "RAPID Z5\nTHREAD Z-10 pitch 1.5\nTHREAD Z-20 pitch 2 change 0.1\n");
+  CHECK(Trace({"G0 Z5", "G33 Z-10 F1.5", "G34 Z-20 F2 K0.1"}) ==
+        "RAPID Z5\nTHREAD Z-10 pitch 1.5\nTHREAD Z-20 pitch 2 change 0.1\n");
 }
 
 TEST_CASE_FIXTURE(RunFixture, "a motion word of one block gives way to the one before") {
@@ -152,12 +163,13 @@ TEST_CASE_FIXTURE(RunFixture, "behind a probe nobody knows where the axis stands
 }
 
 TEST_CASE_FIXTURE(RunFixture, "dwell leaves feed and speed as they are") {
-  CHECK(Trace({"G1 X1 F200", "G4F=2.5", "X2", "G4S=5", "X3"}) == "LINE X1 F200\nDWELL 2.5\nLINE X2 F200\nDWELL 5/r\nLINE X3 F200\n");
+  CHECK(Trace({"G1 X1 F200", "G4F=2.5", "X2", "G4S=5", "X3"}) ==
+        "LINE X1 F200\nDWELL 2.5\nLINE X2 F200\nDWELL 5/r\nLINE X3 F200\n");
 }
 
 TEST_CASE_FIXTURE(RunFixture, "poles and polar words (vector 60)") {
-  CHECK(Trace({"G0 X0 Y0", "G111 X20 Y10", "G1 RP=50 AP=30 F1000", "G110 X-10 Y20", "G1 RP=30 AP=45", "G112 X40 Y20", "G1 RP=30 AP=135",
-               "G1 RP=10", "G1 AP=IC(45)"}) ==
+  CHECK(Trace({"G0 X0 Y0", "G111 X20 Y10", "G1 RP=50 AP=30 F1000", "G110 X-10 Y20", "G1 RP=30 AP=45", "G112 X40 Y20",
+               "G1 RP=30 AP=135", "G1 RP=10", "G1 AP=IC(45)"}) ==
         "RAPID X0 Y0\nLINE X63.30127 Y35 F1000\nLINE X74.514474 Y76.213203 F1000\nLINE X72.088067 Y96.213203 F1000\n"
         "LINE X86.230202 Y82.071068 F1000\nLINE X83.30127 Y75 F1000\n");
   RunFixture missing;
@@ -176,7 +188,8 @@ TEST_CASE_FIXTURE(RunFixture, "words of an arc are never dropped") {
   Trace({"G0 X0 Y0", "G1 X5 I2 F100"});
   CHECK(Finding().find("no arc is in force") != std::string::npos);
   RunFixture closed;
-  CHECK(closed.Trace({"G0 X0 Y0 Z0 F100", "CIP I1=10 J1=0"}) == "RAPID X0 Y0 Z0\nALARM circle end point is the start point\n");
+  CHECK(closed.Trace({"G0 X0 Y0 Z0 F100", "CIP I1=10 J1=0"}) ==
+        "RAPID X0 Y0 Z0\nALARM circle end point is the start point\n");
 }
 
 TEST_CASE_FIXTURE(RunFixture, "an empty program has no end, or is at its end") {

@@ -1,5 +1,5 @@
-// Programs for tests of runs, built word by word. Words() reads a notation of its own, one token a word, so that a test shows
-// the block it is about; expressions are made by ir::ExprBuilder.
+// Programs for tests of runs, built word by word. Words() reads a notation of its own, one token a word, so that a test
+// shows the block it is about; expressions are made by ir::ExprBuilder.
 #pragma once
 
 #include <cstdlib>
@@ -17,12 +17,21 @@ namespace ncport::exec {
 /// A milling machine whose alarms are the names of their classes.
 inline ir::Machine TestMachine() {
   ir::Machine machine;
-  machine.start = {ir::Motion::kLinear,       ir::Plane::kXY,        ir::Distance::kAbsolute, ir::Units::kMm,
-                   ir::FeedMode::kPerMinute,  ir::SpeedMode::kRpm,   ir::CutterComp::kOff,    ir::Diameter::kRadius,
-                   ir::PathMode::kExact,      ir::ReturnLevel::kInitial, {true, 0, 0}};
+  machine.start = {ir::Motion::kLinear,
+                   ir::Plane::kXY,
+                   ir::Distance::kAbsolute,
+                   ir::Units::kMm,
+                   ir::FeedMode::kPerMinute,
+                   ir::SpeedMode::kRpm,
+                   ir::CutterComp::kOff,
+                   ir::Diameter::kRadius,
+                   ir::PathMode::kExact,
+                   ir::ReturnLevel::kInitial,
+                   {true, 0, 0}};
   machine.compare_tolerance = 1e-12;
-  constexpr const char* kCodes[ir::kAlarmClasses] = {"user",  "arithmetic", "conversion", "index", "target", "program", "nesting",  "range",
-                                                     "circle", "feed",       "position",   "code",  "geometry", "syntax", "end", "other"};
+  constexpr const char* kCodes[ir::kAlarmClasses] = {
+      "user",   "arithmetic", "conversion", "index", "target",   "program", "nesting", "range",
+      "circle", "feed",       "position",   "code",  "geometry", "syntax",  "end",     "other"};
   for (std::size_t i = 0; i < ir::kAlarmClasses; ++i) machine.alarms[i] = {kCodes[i], kCodes[i]};
   return machine;
 }
@@ -55,7 +64,8 @@ struct RunFixture {
   ir::ExprId I(std::string_view number) { return e.Number(number, ir::Type::kInt); }
   ir::ExprId Add(ir::ExprId a, ir::ExprId b) { return e.Binary(ir::ExprOp::kAdd, a, b); }
 
-  /// Adds the words of `text` to the block: G0 G1 .. as the meanings below, X10 X=IC(5) CR=5 and the like with literal values.
+  /// Adds the words of `text` to the block: G0 G1 .. as the meanings below, X10 X=IC(5) CR=5 and the like with literal
+  /// values.
   ir::BlockBuilder& Words(ir::BlockBuilder& block, std::string_view text) {
     while (!text.empty()) {
       const std::size_t blank = text.find(' ');
@@ -100,10 +110,15 @@ struct RunFixture {
   }
 
   static ir::ValueMode Mode(std::string_view& value) {
-    static const std::map<std::string_view, ir::ValueMode> kModes = {
-        {"AC(", ir::ValueMode::kAbsolute},           {"IC(", ir::ValueMode::kIncremental},       {"DC(", ir::ValueMode::kShortest},
-        {"ACP(", ir::ValueMode::kPositive},          {"ACN(", ir::ValueMode::kNegative},         {"DAC(", ir::ValueMode::kAbsoluteDiameter},
-        {"DIC(", ir::ValueMode::kIncrementalDiameter}, {"RAC(", ir::ValueMode::kAbsoluteRadius}, {"RIC(", ir::ValueMode::kIncrementalRadius}};
+    static const std::map<std::string_view, ir::ValueMode> kModes = {{"AC(", ir::ValueMode::kAbsolute},
+                                                                     {"IC(", ir::ValueMode::kIncremental},
+                                                                     {"DC(", ir::ValueMode::kShortest},
+                                                                     {"ACP(", ir::ValueMode::kPositive},
+                                                                     {"ACN(", ir::ValueMode::kNegative},
+                                                                     {"DAC(", ir::ValueMode::kAbsoluteDiameter},
+                                                                     {"DIC(", ir::ValueMode::kIncrementalDiameter},
+                                                                     {"RAC(", ir::ValueMode::kAbsoluteRadius},
+                                                                     {"RIC(", ir::ValueMode::kIncrementalRadius}};
     const std::size_t bracket = value.find('(');
     if (bracket == std::string_view::npos) return ir::ValueMode::kModal;
     const ir::ValueMode mode = kModes.at(value.substr(0, bracket + 1));
@@ -116,7 +131,7 @@ struct RunFixture {
       Op op;
       std::uint8_t index = 0;
       std::uint32_t extra = Id<void>::kNone;
-      ir::Phase phase = ir::Phase::kImmediate;   // kImmediate: the usual one
+      ir::Phase phase = ir::Phase::kImmediate;  // kImmediate: the usual one
     };
     using enum ir::FrameOp;
     static const std::map<std::string_view, Row> kCodes = {
@@ -193,15 +208,41 @@ struct RunFixture {
       return;
     }
     static const std::map<std::string_view, Row> kAddresses = {
-        {"X", {Op::kAxis, 0}}, {"Y", {Op::kAxis, 1}}, {"Z", {Op::kAxis, 2}}, {"A", {Op::kAxis, 3}}, {"C", {Op::kAxis, 5}},
-        {"I", {Op::kCenter, 0}}, {"J", {Op::kCenter, 1}}, {"K", {Op::kCenter, 2}},
-        {"I1", {Op::kVia, 0}}, {"J1", {Op::kVia, 1}}, {"K1", {Op::kVia, 2}},
-        {"CR", {Op::kRadius}}, {"AR", {Op::kOpeningAngle}}, {"TURN", {Op::kTurns}}, {"RP", {Op::kPolarRadius}}, {"AP", {Op::kPolarAngle}},
-        {"CHF", {Op::kChamfer, Index(ir::ChamferKind::kLength)}}, {"CHR", {Op::kChamfer, Index(ir::ChamferKind::kLeg)}},
-        {"RND", {Op::kChamfer, Index(ir::ChamferKind::kRound)}}, {"RNDM", {Op::kChamfer, Index(ir::ChamferKind::kRoundModal)}},
-        {"ANG", {Op::kContourAngle}}, {"SF", {Op::kStartAngle}}, {"F", {Op::kFeed}}, {"FB", {Op::kFeedOnce}}, {"S", {Op::kSpeed}},
-        {"S2", {Op::kSpeed, 2}}, {"LIMS", {Op::kSpeedLimit}}, {"SPOS", {Op::kSpindlePosition}}, {"T", {Op::kTool}}, {"D", {Op::kEdge}},
-        {"H", {Op::kAuxH}}, {"M", {Op::kAux}}, {"G4F", {Op::kDwellSeconds}}, {"G4S", {Op::kDwellRevolutions}}, {"RPL", {Op::kFrameAngle}},
+        {"X", {Op::kAxis, 0}},
+        {"Y", {Op::kAxis, 1}},
+        {"Z", {Op::kAxis, 2}},
+        {"A", {Op::kAxis, 3}},
+        {"C", {Op::kAxis, 5}},
+        {"I", {Op::kCenter, 0}},
+        {"J", {Op::kCenter, 1}},
+        {"K", {Op::kCenter, 2}},
+        {"I1", {Op::kVia, 0}},
+        {"J1", {Op::kVia, 1}},
+        {"K1", {Op::kVia, 2}},
+        {"CR", {Op::kRadius}},
+        {"AR", {Op::kOpeningAngle}},
+        {"TURN", {Op::kTurns}},
+        {"RP", {Op::kPolarRadius}},
+        {"AP", {Op::kPolarAngle}},
+        {"CHF", {Op::kChamfer, Index(ir::ChamferKind::kLength)}},
+        {"CHR", {Op::kChamfer, Index(ir::ChamferKind::kLeg)}},
+        {"RND", {Op::kChamfer, Index(ir::ChamferKind::kRound)}},
+        {"RNDM", {Op::kChamfer, Index(ir::ChamferKind::kRoundModal)}},
+        {"ANG", {Op::kContourAngle}},
+        {"SF", {Op::kStartAngle}},
+        {"F", {Op::kFeed}},
+        {"FB", {Op::kFeedOnce}},
+        {"S", {Op::kSpeed}},
+        {"S2", {Op::kSpeed, 2}},
+        {"LIMS", {Op::kSpeedLimit}},
+        {"SPOS", {Op::kSpindlePosition}},
+        {"T", {Op::kTool}},
+        {"D", {Op::kEdge}},
+        {"H", {Op::kAuxH}},
+        {"M", {Op::kAux}},
+        {"G4F", {Op::kDwellSeconds}},
+        {"G4S", {Op::kDwellRevolutions}},
+        {"RPL", {Op::kFrameAngle}},
         {"SETAL", {Op::kAlarm, Index(ir::AlarmKind::kByNumber)}},
     };
     std::size_t split = token.find('=');

@@ -29,11 +29,13 @@ TEST_CASE("integer quotient and remainder of REAL operands (sinumerik-4.2, vecto
   CHECK(Modulo(-370, 360).value == -10);
   CHECK(Modulo(725.5, 360).value == 5.5);
   CHECK(Modulo(3, 4).value == 3);
-  // The double 0.3 is less than three times the double 0.1: the remainder is nearly 0.1, as the card says of every control.
+  // The double 0.3 is less than three times the double 0.1: the remainder is nearly 0.1, as the card says of every
+  // control.
   CHECK(Modulo(0.3, 0.1).value == doctest::Approx(0.1));
   // Quotient and remainder belong together even where the rounded quotient is a whole number that the exact one is not.
   for (const double a : {0.6, 1.1, 2.2, 4.35, 1e15 + 0.3}) {
-    for (const double b : {0.1, 0.2, 0.7, 0.011}) CHECK(DivideInteger(a, b).value * b + Modulo(a, b).value == doctest::Approx(a));
+    for (const double b : {0.1, 0.2, 0.7, 0.011})
+      CHECK(DivideInteger(a, b).value * b + Modulo(a, b).value == doctest::Approx(a));
   }
 }
 

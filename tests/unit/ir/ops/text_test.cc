@@ -40,7 +40,8 @@ TEST_CASE("text as number") {
   CHECK(ParseNumber(" -.5 ").value == -0.5);
   CHECK(ParseNumber("+10.").value == 10);
   CHECK(ParseNumber("1ex+3").value == 1000);
-  for (const char* bad : {"", "12A", "1E3", "1EX", "EX3", "1.2.3", "-", ".", "1 2", "1EX999"}) CHECK(!ParseNumber(bad).Ok());
+  for (const char* bad : {"", "12A", "1E3", "1EX", "EX3", "1.2.3", "-", ".", "1 2", "1EX999"})
+    CHECK(!ParseNumber(bad).Ok());
 }
 
 TEST_CASE("positions count characters, not bytes") {
@@ -62,7 +63,9 @@ TEST_CASE("positions count characters, not bytes") {
   AppendUpper(buffer, "aZ1");
   AppendLower(buffer, "aZ1");
   AppendCharacter(buffer, 0);
-  CHECK(buffer.View() == "\xC3\xBC" "AZ1az1");
+  CHECK(buffer.View() ==
+        "\xC3\xBC"
+        "AZ1az1");
 }
 
 TEST_CASE("SPRINT formats (sinumerik-4.6)") {

@@ -1,11 +1,11 @@
 #include "app/comparison.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <set>
 #include <string>
-
-#include <fmt/format.h>
 
 #include "dialects/machine.h"
 #include "exec/link.h"
@@ -21,7 +21,8 @@ bool SameName(std::string_view a, std::string_view b) {
 }
 
 /// The output as a module of the target's language; added lines are marked.
-bool ReadBack(const std::vector<backends::OutputFile>& files, const dialects::Profile& target, ir::Module& module, std::string& problem) {
+bool ReadBack(const std::vector<backends::OutputFile>& files, const dialects::Profile& target, ir::Module& module,
+              std::string& problem) {
   SourceFiles sources;
   diag::Sink sink;
   std::vector<FileId> ids;
@@ -33,7 +34,8 @@ bool ReadBack(const std::vector<backends::OutputFile>& files, const dialects::Pr
   if (!sink.HasErrors()) frontend::ResolveNames(sources, module, target, sink);
   for (const diag::Diagnostic& finding : sink.All()) {
     if (finding.severity != diag::Severity::kError) continue;
-    problem = fmt::format("{} line {}: {}", finding.at.file.Valid() ? sources.Name(finding.at.file) : "output", finding.at.line, finding.message);
+    problem = fmt::format("{} line {}: {}", finding.at.file.Valid() ? sources.Name(finding.at.file) : "output",
+                          finding.at.line, finding.message);
     return false;
   }
   for (ir::Block& block : module.blocks.All()) {
@@ -42,7 +44,8 @@ bool ReadBack(const std::vector<backends::OutputFile>& files, const dialects::Pr
     const auto file = std::find(ids.begin(), ids.end(), origin.file);
     if (file == ids.end()) continue;
     const std::vector<std::uint32_t>& added = files[static_cast<std::size_t>(file - ids.begin())].added_lines;
-    if (std::binary_search(added.begin(), added.end(), origin.line)) block.flags = static_cast<std::uint8_t>(block.flags | ir::Block::kAdded);
+    if (std::binary_search(added.begin(), added.end(), origin.line))
+      block.flags = static_cast<std::uint8_t>(block.flags | ir::Block::kAdded);
   }
   return true;
 }
@@ -50,14 +53,17 @@ bool ReadBack(const std::vector<backends::OutputFile>& files, const dialects::Pr
 ir::ProgramId FindByName(const ir::Module& module, std::string_view name) {
   for (const ir::ProgramId id : module.programs.Ids()) {
     const std::string_view known = module.View(module.programs[id].name);
-    if (SameName(known, name) || (known.size() > 1 && (known[0] == 'O' || known[0] == 'o') && SameName(known.substr(1), name))) return id;
+    if (SameName(known, name) ||
+        (known.size() > 1 && (known[0] == 'O' || known[0] == 'o') && SameName(known.substr(1), name)))
+      return id;
   }
   return {};
 }
 
 class Binder {
  public:
-  Binder(const ProgramSet& source, const backends::Translation& translation, const ir::Module& target, const dialects::Config* config)
+  Binder(const ProgramSet& source, const backends::Translation& translation, const ir::Module& target,
+         const dialects::Config* config)
       : source_(source.module), translation_(translation), target_(target), config_(config) {}
 
   std::vector<prove::BoundInput> Arguments(ir::ProgramId entry);
@@ -116,10 +122,13 @@ std::vector<prove::BoundInput> Binder::Arguments(ir::ProgramId entry) {
           while (true) {
             const ir::Expr& expr = source_.exprs[value];
             if (expr.op == ir::ExprOp::kNegate) sign = -sign;
-            if (expr.op != ir::ExprOp::kGroup && expr.op != ir::ExprOp::kNegate && expr.op != ir::ExprOp::kPlus && expr.op != ir::ExprOp::kConvert) break;
+            if (expr.op != ir::ExprOp::kGroup && expr.op != ir::ExprOp::kNegate && expr.op != ir::ExprOp::kPlus &&
+                expr.op != ir::ExprOp::kConvert)
+              break;
             value = ir::ExprId{expr.a};
           }
-          if (source_.exprs[value].op == ir::ExprOp::kLiteral) bound.input.seen.push_back(sign * source_.exprs[value].number);
+          if (source_.exprs[value].op == ir::ExprOp::kLiteral)
+            bound.input.seen.push_back(sign * source_.exprs[value].number);
         }
       }
       prove::InputPlace place;
@@ -129,11 +138,13 @@ std::vector<prove::BoundInput> Binder::Arguments(ir::ProgramId entry) {
       // Every program of the target that got a letter for this parameter: the parts of a split cycle have one each.
       for (const ir::transform::CellMapping& mapping : translation_.cells) {
         if (mapping.letter == 0 || !SameName(mapping.source, source_.View(variable.name))) continue;
-        const auto name = std::find_if(translation_.programs.begin(), translation_.programs.end(),
-                                       [&](const backends::ProgramName& known) { return known.program == mapping.program; });
+        const auto name =
+            std::find_if(translation_.programs.begin(), translation_.programs.end(),
+                         [&](const backends::ProgramName& known) { return known.program == mapping.program; });
         if (name == translation_.programs.end()) continue;
         const std::string_view whole = source_.View(program.name);
-        const bool part = SameName(name->source, whole) || (name->source.starts_with(whole) && name->source.substr(whole.size()).starts_with('_'));
+        const bool part = SameName(name->source, whole) ||
+                          (name->source.starts_with(whole) && name->source.substr(whole.size()).starts_with('_'));
         if (!part) continue;
         prove::InputPlace there;
         there.callee = FindByName(target_, name->target);
@@ -169,7 +180,8 @@ void Binder::Cells(ir::ProgramId entry, const ir::Machine& machine, std::vector<
     place.cell = cell;
     bound.source.push_back(place);
     for (const ir::transform::CellMapping& mapping : translation_.cells) {
-      if (mapping.source_space != space || cell < mapping.source_cell || cell >= mapping.source_cell + mapping.count) continue;
+      if (mapping.source_space != space || cell < mapping.source_cell || cell >= mapping.source_cell + mapping.count)
+        continue;
       const std::uint32_t home = mapping.first + cell - mapping.source_cell;
       for (const ir::SpaceId id : target_.spaces.Ids()) {
         const ir::Space& cells = target_.spaces[id];
@@ -217,8 +229,9 @@ prove::Precision PrecisionOf(const dialects::Profile& profile, const ir::Machine
 
 prove::Verification CompareTranslation(Context& context, const ProgramSet& source, const ir::Machine& source_machine,
                                        ir::ProgramId entry, const dialects::Profile& target,
-                                       const backends::Translation& translation, const std::vector<backends::OutputFile>& files,
-                                       const dialects::Config* config, const ComparisonSetup& setup, std::vector<prove::Input>& inputs) {
+                                       const backends::Translation& translation,
+                                       const std::vector<backends::OutputFile>& files, const dialects::Config* config,
+                                       const ComparisonSetup& setup, std::vector<prove::Input>& inputs) {
   prove::Verification result;
   ir::Module module;
   std::string problem;
@@ -253,7 +266,8 @@ prove::Verification CompareTranslation(Context& context, const ProgramSet& sourc
     if (module.spaces[space].lifetime == ir::Lifetime::kKept) options.garbage.push_back(space);
   }
   for (const ir::transform::CellMapping& mapping : translation.cells) {
-    if (mapping.outlives && mapping.count == 1) options.final_values.emplace_back(mapping.source, fmt::format("#{}", mapping.first));
+    if (mapping.outlives && mapping.count == 1)
+      options.final_values.emplace_back(mapping.source, fmt::format("#{}", mapping.first));
   }
   prove::Side a{&source.module, &source_machine, entry, source.module.programs[entry].kind == ir::ProgramKind::kSub};
   prove::Side b{&module, &target_machine, target_entry, a.is_call};

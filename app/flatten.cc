@@ -64,6 +64,8 @@ Status Flatten(Context& context, const std::vector<Input>& inputs, const Flatten
   NCPORT_TRY_ASSIGN(exec::RunOptions run, app::RunOptionsFor(context, set, options));
   run.count_turns = options.side_by_side || options.source_map != nullptr;
 
+  run.count_turns = options.side_by_side || options.source_map != nullptr;
+
   exec::Coverage coverage;
   backends::iso::FlatOptions flat;
   flat.heading = Heading(inputs, options, set.profile, target);

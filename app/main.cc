@@ -358,7 +358,8 @@ int Main(int argc, char** argv) {
   AddCommon(*command, translate);
   AddRunning(*command, translate);
   command->add_option("--to", translate.to, "profile of the target");
-  command->add_flag("--verify", translate.verify, "run both programs over parameter sets and compare what the machine does");
+  command->add_flag("--verify", translate.verify,
+                    "run both programs over parameter sets and compare what the machine does");
   command->add_option("--runs", translate.runs, "parameter sets to compare");
   command->add_option("--seed", translate.seed, "seed of the parameter sets");
   command->add_option("-o", translate.output, "file or folder to write")->type_name("FILE|DIR");

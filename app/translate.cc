@@ -1,15 +1,15 @@
-#include "app/ncport.h"
+#include "backends/translate.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <optional>
 #include <string>
 
-#include <fmt/format.h>
-
 #include "app/comparison.h"
+#include "app/ncport.h"
 #include "app/pipeline.h"
 #include "app/translation_header.h"
-#include "backends/translate.h"
 #include "dialects/machine.h"
 
 namespace ncport {
@@ -28,7 +28,8 @@ void ReportDifference(Context& context, const app::ProgramSet& set, const prove:
   for (std::size_t i = 0; i < inputs.size() && i < verification.difference_set.size(); ++i) {
     values += fmt::format("{}{}={:g}", i == 0 ? "" : " ", inputs[i].name, verification.difference_set[i]);
   }
-  finding.notes.push_back({SourceRange{}, fmt::format("with {} ({})", values.empty() ? "no inputs" : values, verification.difference_start)});
+  finding.notes.push_back({SourceRange{}, fmt::format("with {} ({})", values.empty() ? "no inputs" : values,
+                                                      verification.difference_start)});
 }
 
 void ReportNotCompared(Context& context, const app::ProgramSet& set, const prove::Verification& verification) {
@@ -42,7 +43,8 @@ void ReportNotCompared(Context& context, const app::ProgramSet& set, const prove
 
 }  // namespace
 
-Status Translate(Context& context, const std::vector<Input>& inputs, const TranslateOptions& options, TranslateResult& result) {
+Status Translate(Context& context, const std::vector<Input>& inputs, const TranslateOptions& options,
+                 TranslateResult& result) {
   app::ProgramSet set;
   NCPORT_TRY(app::ReadSet(context, inputs, options, app::ProfileNeed::kNamed, set));
   std::string target_name = options.to;
@@ -51,7 +53,8 @@ Status Translate(Context& context, const std::vector<Input>& inputs, const Trans
     context.findings.Report(diag::Code::kNoProfile, SourceRange{}, "the output").help = "name the target with --to";
     return Failure{};
   }
-  NCPORT_TRY_ASSIGN(const dialects::Profile target, dialects::LoadProfile(target_name, context.files, context.findings));
+  NCPORT_TRY_ASSIGN(const dialects::Profile target,
+                    dialects::LoadProfile(target_name, context.files, context.findings));
   const ir::Machine machine = dialects::MachineFor(set.profile);
   backends::Translation translation;
   const backends::TranslateInput input{&set.module, &set.profile, &machine, &target, options.config};
@@ -63,7 +66,8 @@ Status Translate(Context& context, const std::vector<Input>& inputs, const Trans
   if (options.verify) {
     NCPORT_TRY_ASSIGN(const exec::RunOptions run, app::RunOptionsFor(context, set, options));
     const app::ComparisonSetup setup{options.runs, options.seed, options.max_blocks};
-    verification = app::CompareTranslation(context, set, machine, run.entry, target, translation, files, options.config, setup, varied);
+    verification = app::CompareTranslation(context, set, machine, run.entry, target, translation, files, options.config,
+                                           setup, varied);
     if (verification->difference) ReportDifference(context, set, *verification, varied);
     if (!verification->difference && !verification->compared) ReportNotCompared(context, set, *verification);
     result.summary = app::SummaryOf(*verification, varied);

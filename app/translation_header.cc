@@ -1,11 +1,11 @@
 #include "app/translation_header.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
 #include <set>
-
-#include <fmt/format.h>
 
 namespace ncport::app {
 namespace {
@@ -20,7 +20,8 @@ std::uint64_t HashOf(const Context& context, const ir::Module& module) {
   for (const std::uint32_t file : files) {
     const std::uint32_t count = context.files.LineCount(FileId{file});
     for (std::uint32_t line = 1; line <= count; ++line) {
-      for (const char c : context.files.Line(FileId{file}, line)) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3ULL;
+      for (const char c : context.files.Line(FileId{file}, line))
+        hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3ULL;
       hash = (hash ^ 0x0AU) * 0x100000001B3ULL;
     }
   }
@@ -32,11 +33,13 @@ std::string FileNameOf(std::string_view path) {
   return std::string(slash == std::string_view::npos ? path : path.substr(slash + 1));
 }
 
-std::string RangeOfInput(const std::vector<prove::Input>& inputs, std::string_view program, std::string_view parameter) {
+std::string RangeOfInput(const std::vector<prove::Input>& inputs, std::string_view program,
+                         std::string_view parameter) {
   const std::string name = fmt::format("{}.{}", program, parameter);
   for (const prove::Input& input : inputs) {
-    const bool same = std::equal(input.name.begin(), input.name.end(), name.begin(), name.end(),
-                                 [](char a, char b) { return std::toupper(static_cast<unsigned char>(a)) == std::toupper(static_cast<unsigned char>(b)); });
+    const bool same = std::equal(input.name.begin(), input.name.end(), name.begin(), name.end(), [](char a, char b) {
+      return std::toupper(static_cast<unsigned char>(a)) == std::toupper(static_cast<unsigned char>(b));
+    });
     if (same && input.low && input.high) return fmt::format(" {:g} TO {:g}", *input.low, *input.high);
   }
   return {};
@@ -53,16 +56,22 @@ std::string SummaryOf(const prove::Verification& verification, const std::vector
   } else {
     text = "EQUAL: source and translation made the machine do the same.\n";
   }
-  text += fmt::format("  {} distinct parameter sets over {} inputs; {} moved and were counted, {} alarmed on both sides before any motion\n",
-                      verification.sets_run, inputs.size(), verification.sets_counted, verification.alarms_agreed);
-  text += fmt::format("  {} sets aimed at exact multiples; each set once more from a poisoned start\n", verification.exact_multiples);
-  text += fmt::format("  {} of {} branches of the source taken; {} events compared, the longest run had {}\n", verification.branches_taken,
-                      verification.branches, verification.events_compared, verification.longest_trace);
+  text += fmt::format(
+      "  {} distinct parameter sets over {} inputs; {} moved and were counted, {} alarmed on both sides before any "
+      "motion\n",
+      verification.sets_run, inputs.size(), verification.sets_counted, verification.alarms_agreed);
+  text += fmt::format("  {} sets aimed at exact multiples; each set once more from a poisoned start\n",
+                      verification.exact_multiples);
+  text += fmt::format("  {} of {} branches of the source taken; {} events compared, the longest run had {}\n",
+                      verification.branches_taken, verification.branches, verification.events_compared,
+                      verification.longest_trace);
   return text;
 }
 
-std::vector<backends::ProgramHeader> HeadersOf(const Context& context, const ProgramSet& source, const dialects::Profile& target,
-                                               const backends::Translation& translation, const prove::Verification* verification,
+std::vector<backends::ProgramHeader> HeadersOf(const Context& context, const ProgramSet& source,
+                                               const dialects::Profile& target,
+                                               const backends::Translation& translation,
+                                               const prove::Verification* verification,
                                                const std::vector<prove::Input>& inputs) {
   std::vector<backends::ProgramHeader> headers;
   bool first = true;
@@ -75,8 +84,10 @@ std::vector<backends::ProgramHeader> HeadersOf(const Context& context, const Pro
       for (const FileId file : source.inputs) files += " " + FileNameOf(context.files.Name(file));
       lines.push_back(fmt::format("SOURCE{} HASH {:016X}", files, HashOf(context, source.module)));
       for (const std::string& required : translation.required) lines.push_back("REQUIRES " + required);
-      for (const backends::ProgramName& program : translation.programs) lines.push_back(fmt::format("PROGRAM {} = {}", program.source, program.target));
-      for (const backends::ToolUse& tool : translation.tools) lines.push_back(fmt::format("TOOL {} = {}", tool.source_words, tool.target_words));
+      for (const backends::ProgramName& program : translation.programs)
+        lines.push_back(fmt::format("PROGRAM {} = {}", program.source, program.target));
+      for (const backends::ToolUse& tool : translation.tools)
+        lines.push_back(fmt::format("TOOL {} = {}", tool.source_words, tool.target_words));
       for (const backends::OffsetUse& offset : translation.offsets) {
         lines.push_back(fmt::format("WORK OFFSET G{} = G{}{}", offset.source, offset.target,
                                     offset.target_extension == 0 ? "" : fmt::format(" P{}", offset.target_extension)));
@@ -87,8 +98,8 @@ std::vector<backends::ProgramHeader> HeadersOf(const Context& context, const Pro
       if (verification == nullptr) {
         lines.emplace_back("NOT COMPARED: --verify WAS NOT ASKED FOR");
       } else {
-        lines.push_back(fmt::format("COMPARED: {} PARAMETER SETS, {} OF {} BRANCHES, NO DIFFERENCE", verification->sets_counted,
-                                    verification->branches_taken, verification->branches));
+        lines.push_back(fmt::format("COMPARED: {} PARAMETER SETS, {} OF {} BRANCHES, NO DIFFERENCE",
+                                    verification->sets_counted, verification->branches_taken, verification->branches));
       }
       std::set<std::string> lost;
       for (const backends::Loss& loss : translation.losses) lost.insert(loss.what.substr(0, loss.what.find(' ')));
@@ -98,7 +109,8 @@ std::vector<backends::ProgramHeader> HeadersOf(const Context& context, const Pro
     for (const ir::transform::CellMapping& cell : translation.cells) {
       if (cell.program != name.program || cell.common) continue;
       if (cell.letter != 0) {
-        lines.push_back(fmt::format("{} = #{} = {}{}", cell.letter, cell.first, cell.source, RangeOfInput(inputs, name.source, cell.source)));
+        lines.push_back(fmt::format("{} = #{} = {}{}", cell.letter, cell.first, cell.source,
+                                    RangeOfInput(inputs, name.source, cell.source)));
       } else {
         lines.push_back(fmt::format("#{} = {}", cell.first, cell.source));
       }

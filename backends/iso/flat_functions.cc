@@ -1,6 +1,7 @@
 // All but motion: spindle, tools and offsets, M functions, dwell.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -160,6 +161,10 @@ void FlatWriter::Spindle(const exec::Event& event) {
 /// Puts the finding of an answer into the sink. False if there are no words.
 bool FlatWriter::Report(const ToolMap::Answer& answer) {
   if (!answer.problem) return true;
+  if (!answer.Failed()) {
+    if (std::ranges::find(assumed_, answer.source) != assumed_.end()) return true;
+    assumed_.push_back(answer.source);
+  }
   if (diag::Diagnostic* diagnostic = Refuse(*answer.problem, answer.source, answer.assumed))
     diagnostic->help = answer.help;
   return !answer.Failed();
@@ -296,7 +301,10 @@ void FlatWriter::WorkOffset(const exec::Event& event) {
 // --- M functions, dwell
 
 void FlatWriter::Aux(const exec::Event& event) {
-  const std::string word = fmt::format("M{}", event.number);
+  const bool h = event.text == "H";
+  const std::string address =
+      event.extension == 0 ? std::string(h ? "H" : "M") : fmt::format("{}{}=", h ? "H" : "M", event.extension);
+  const std::string word = fmt::format("{}{}", address, event.number);
   const auto find = [&](const std::vector<dialects::MCodeRule>& rules) -> const dialects::MCodeRule* {
     for (const dialects::MCodeRule& rule : rules) {
       if (rule.source == word) return &rule;
@@ -310,8 +318,9 @@ void FlatWriter::Aux(const exec::Event& event) {
     CommentLine("", word + " left out");
     return;
   }
-  const bool common = event.number == 7 || event.number == 8 || event.number == 9 || (event.number == 6 && !lathe_);
-  if (common && event.spindle == 0) return WriteWords(word);
+  const bool common =
+      !h && (event.number == 7 || event.number == 8 || event.number == 9 || (event.number == 6 && !lathe_));
+  if (common && event.extension == 0) return WriteWords(word);
   if (diag::Diagnostic* diagnostic = Refuse(diag::Code::kUnmappedCode, word)) {
     diagnostic->help = fmt::format("if the target has it, add to [mcodes] in ncport.toml: {0} = \"{0}\"", word);
   }

@@ -46,6 +46,10 @@ FlatWriter::FlatWriter(const ir::Module& module, const SourceFiles& files, const
       marks_(module.blocks.Size()) {
   for (const ir::Program& program : module.programs.All()) {
     if (!program.blocks.Empty()) marks_[program.blocks.begin] = kStart;
+    // What ncport brings along as text is no part of the source: its comments stay with it.
+    for (const ir::BlockId block : program.blocks) {
+      if (program.library) marks_[block.value] |= kWritten;
+    }
   }
   lathe_ = target.IsLathe();
   inch_ = target.units.Or(dialects::LengthUnit::kMm) == dialects::LengthUnit::kInch;
@@ -72,6 +76,7 @@ bool FlatWriter::OnEvent(const exec::Event& event) {
   if (tool_pending_ || surface_pending_) FlushPending(&event);
   if (open_words_ != 0 && (!IsSpindleWord(event.kind) || event.block != origin_.block)) CloseOpenLine();
   origin_ = {event.block, event.frames};
+  kind_ = event.kind;
   if (event.block.Valid() && (marks_[event.block.value] & kWritten) == 0) EnterBlock(event.block);
   Dispatch(event);
   return FlushIfFull();
@@ -126,7 +131,8 @@ void FlatWriter::Dispatch(const exec::Event& event) {
       return Aux(event);
     case EventKind::kMessage:
       CommentLine("MSG", event.text);
-      Refuse(diag::Code::kListedLoss, "the message");
+      // An empty one only clears the display.
+      if (!event.text.empty()) Refuse(diag::Code::kListedLoss, "the message");
       return;
     case EventKind::kPrint:
       CommentLine("PRINT", event.text);
@@ -304,8 +310,8 @@ void FlatWriter::WriteLostWordsOf(ir::BlockId id) {
   const ir::Block& block = module_.blocks[id];
   for (const ir::WordId word_id : block.words) {
     const ir::Word& word = module_.words[word_id];
-    if (word.op != ir::WordOp::kPreprocessStop && word.op != ir::WordOp::kWorkpiece && word.op != ir::WordOp::kInert)
-      continue;
+    const bool inert = word.op == ir::WordOp::kInert && word.phase == ir::Phase::kSetting;  // else part of a dwell
+    if (word.op != ir::WordOp::kPreprocessStop && word.op != ir::WordOp::kWorkpiece && !inert) continue;
     const SourceRange range = module_.RangeOf(block, word);
     const std::string_view text = files_.View(range);
     CommentLine("", text);
@@ -372,8 +378,55 @@ void FlatWriter::WriteLeftoverComments() {
 
 // --- findings
 
+/// The word of the block that an event of this kind comes from; none: the block as a whole.
+bool IsCauseOf(exec::EventKind kind, ir::WordOp op) {
+  using exec::EventKind;
+  using ir::WordOp;
+  switch (kind) {
+    case EventKind::kTool:
+      return op == WordOp::kTool;
+    case EventKind::kOffset:
+      return op == WordOp::kEdge || op == WordOp::kToolOffset || op == WordOp::kLengthOffset ||
+             op == WordOp::kRadiusOffset;
+    case EventKind::kComp:
+      return op == WordOp::kCutterComp;
+    case EventKind::kWorkOffset:
+      return op == WordOp::kWorkOffset;
+    case EventKind::kPath:
+      return op == WordOp::kPathMode;
+    case EventKind::kMessage:
+      return op == WordOp::kMessage;
+    case EventKind::kPrint:
+      return op == WordOp::kPrint;
+    case EventKind::kAux:
+      return op == WordOp::kAux || op == WordOp::kAuxH || op == WordOp::kComputedM;
+    case EventKind::kSpindleSurface:
+    case EventKind::kSpindleSpeed:
+      return op == WordOp::kSpeed;
+    case EventKind::kSpindleLimit:
+      return op == WordOp::kSpeedLimit;
+    case EventKind::kSpindlePosition:
+      return op == WordOp::kSpindlePosition;
+    case EventKind::kReference:
+      return op == WordOp::kReference;
+    case EventKind::kRapidMachine:
+      return op == WordOp::kMachineCoords;
+    default:
+      return false;
+  }
+}
+
 SourceRange FlatWriter::Place() const {
-  return origin_.block.Valid() ? module_.RangeOf(module_.blocks[origin_.block]) : SourceRange{};
+  if (!origin_.block.Valid()) return {};
+  const ir::Block& block = module_.blocks[origin_.block];
+  SourceRange whole;
+  for (const ir::WordId id : block.words) {
+    const ir::Word& word = module_.words[id];
+    const SourceRange range = module_.RangeOf(block, word);
+    if (IsCauseOf(kind_, word.op)) return range;
+    whole = whole.Valid() ? Join(whole, range) : range;
+  }
+  return whole.Valid() ? whole : module_.RangeOf(block);
 }
 
 /// One finding of a code for each source block, however often it runs. Null when there was one.

@@ -84,7 +84,7 @@ class FlatWriter final : public exec::EventSink {
   void WriteLeftoverComments();
   [[nodiscard]] bool Executed(ir::BlockId block) const;
   diag::Diagnostic* Refuse(diag::Code code, std::string_view what, std::string_view more = {});
-  SourceRange Place() const;
+  [[nodiscard]] SourceRange Place() const;
   void NoteCalls(diag::Diagnostic& diagnostic) const;
 
   // flat_motion.cc
@@ -136,8 +136,9 @@ class FlatWriter final : public exec::EventSink {
   bool header_written_ = false;
   bool failed_ = false;  // the output cannot take more
 
-  // The block that the present event belongs to.
+  // The block that the present event belongs to, and the kind of the event.
   FlatOrigin origin_;
+  exec::EventKind kind_ = exec::EventKind::kEnd;
   std::vector<std::uint8_t> marks_;  // per block: kStart, kWalked, kRefused ...
   ir::BlockId comments_of_;          // comments that wait for the first flat block of this one
   std::vector<ir::CommentId> comments_too_long_;
@@ -165,6 +166,7 @@ class FlatWriter final : public exec::EventSink {
   ir::BlockId pending_block_;
   bool speed_is_rpm_ = false;  // lathe: the text says that S is a speed, not a surface speed
   std::optional<std::int64_t> radius_register_;
+  std::vector<std::string> assumed_;  // tools with edge whose registers were assumed: one warning each
   // Spindle words of one source block share a flat block.
   std::uint8_t open_words_ = 0;  // bits of the words in the open line; 0 = none open
 };

@@ -4,10 +4,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -19,6 +21,7 @@
 #include "base/diag/json_renderer.h"
 #include "base/diag/sarif_renderer.h"
 #include "base/diag/text_renderer.h"
+#include "base/near_name.h"
 
 namespace ncport::app {
 namespace {
@@ -43,6 +46,26 @@ struct Running {
   std::string start;
   std::uint64_t max_blocks = RunSettings{}.max_blocks;
 };
+
+/// Findings about the command line, profiles and configuration: the programs are not to blame.
+bool IsUsage(diag::Code code) {
+  using diag::Code;
+  switch (code) {
+    case Code::kBadOption:
+    case Code::kNoProfile:
+    case Code::kUnclearLanguage:
+    case Code::kUnknownProfile:
+    case Code::kUnreadableFile:
+    case Code::kTomlSyntax:
+    case Code::kUnknownKey:
+    case Code::kWrongKeyValue:
+    case Code::kProfileCycle:
+    case Code::kMissingKey:
+      return true;
+    default:
+      return false;
+  }
+}
 
 /// Inputs, configuration and findings of one command.
 class Session {
@@ -124,10 +147,6 @@ class Session {
   Context context;
 
  private:
-  static bool IsUsage(diag::Code code) {
-    return code == diag::Code::kBadOption || code == diag::Code::kNoProfile || code == diag::Code::kUnclearLanguage ||
-           code == diag::Code::kUnknownProfile || code == diag::Code::kUnreadableFile;
-  }
 
   const Common& common_;
   ProgramFolders folders_;
@@ -218,8 +237,7 @@ int RunCheck(const CheckArguments& arguments) {
   // Wrong usage is no finding of the programs.
   Context& context = session.context;
   for (const diag::Diagnostic& finding : context.findings.All()) {
-    const bool usage = finding.code == diag::Code::kUnclearLanguage || finding.code == diag::Code::kUnknownProfile;
-    if (usage) return session.End(Failure{});
+    if (IsUsage(finding.code)) return session.End(Failure{});
   }
   if (!session.FolderError().empty()) return session.End(Failure{});
 
@@ -419,6 +437,15 @@ int Main(int argc, char** argv) {
   command->add_option("--format", list_format, "form of the list")->check(CLI::IsMember({"text", "json"}));
   command->callback([&] { code = Print(List(list_what, list_format == "json")); });
 
+  std::vector<std::string> commands;
+  for (const CLI::App* known : app.get_subcommands({})) commands.push_back(known->get_name());
+  if (argc > 1 && argv[1][0] != '-' && std::find(commands.begin(), commands.end(), argv[1]) == commands.end()) {
+    const std::vector<std::string_view> names(commands.begin(), commands.end());
+    const std::string_view near = NearName(argv[1], names);
+    Say(fmt::format("there is no command {}; {}", argv[1],
+                    near.empty() ? "ncport --help shows all" : fmt::format("did you mean {}?", near)));
+    return kUsage;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -74,7 +74,7 @@ Result<dialects::Profile> ChooseProfile(Context& context, const Input& first, co
   NCPORT_TRY(dialects::NeedLanguage(guess, first.name, SourceRange{}, context.findings));
   const std::string name(dialects::UsualProfile(guess));
   std::string reason = guess.reasons.front();
-  if (guess.lathe) reason += ", " + guess.lathe_reason;
+  if (guess.lathe && reason.find(guess.lathe_reason) == std::string::npos) reason += ", " + guess.lathe_reason;
   context.findings.Report(diag::Code::kGuessedProfile, SourceRange{}, name, reason).help =
       "name the machine with --from";
   return dialects::LoadProfile(name, context.files, context.findings);

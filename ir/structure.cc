@@ -36,8 +36,9 @@ Mark MarkOf(WordOp op) {
 
 class Builder {
  public:
-  Builder(Module& module, ProgramId program, std::uint32_t max_depth, diag::Sink& sink)
-      : module_(module), program_(program), max_depth_(max_depth), sink_(sink) {}
+  using MarkName = std::string_view (*)(WordOp);
+  Builder(Module& module, ProgramId program, std::uint32_t max_depth, diag::Sink& sink, MarkName mark_name)
+      : module_(module), program_(program), max_depth_(max_depth), sink_(sink), mark_name_(mark_name) {}
 
   void Run() {
     for (const BlockId id : module_.programs[program_].blocks) {
@@ -220,8 +221,11 @@ class Builder {
                                                                    : std::string_view{});
   }
 
-  static std::string Decorate(const Word& word, std::string_view spelling) {
-    return WithNumber(spelling.empty() ? NameOf(OpOf(word)) : spelling, word);
+  [[nodiscard]] std::string Decorate(const Word& word, std::string_view spelling) const {
+    return WithNumber(spelling.empty() ? MarkNameOf(OpOf(word)) : spelling, word);
+  }
+  [[nodiscard]] std::string_view MarkNameOf(WordOp op) const {
+    return mark_name_ != nullptr ? mark_name_(op) : NameOf(op);
   }
   static std::string WithNumber(std::string_view text, const Word& word) {
     const std::uint8_t number = DoNumberOf(word);
@@ -232,7 +236,7 @@ class Builder {
   [[nodiscard]] std::string TextOfOp(WordOp op, const Word& partner) {
     auto& known = op_texts_[static_cast<std::size_t>(op)];
     if (known.empty()) {
-      known = NameOf(op);
+      known = MarkNameOf(op);
       for (const BlockId block : module_.programs[program_].blocks) {
         const WordId mark = FindMark(module_.blocks[block]);
         if (!mark.Valid() || module_.words[mark].op != op) continue;
@@ -274,6 +278,7 @@ class Builder {
   ProgramId program_;
   std::uint32_t max_depth_;
   diag::Sink& sink_;
+  MarkName mark_name_;
   std::vector<Opener> open_;
   std::array<std::uint32_t, kKinds * 256> counts_{};  // open structures per key
   std::array<std::uint32_t, kKinds> kind_counts_{};   // and per kind
@@ -283,8 +288,9 @@ class Builder {
 
 }  // namespace
 
-void BuildStructure(Module& module, ProgramId program, std::uint32_t max_depth, diag::Sink& sink) {
-  Builder{module, program, max_depth, sink}.Run();
+void BuildStructure(Module& module, ProgramId program, std::uint32_t max_depth, diag::Sink& sink,
+                    std::string_view (*mark_name)(WordOp)) {
+  Builder{module, program, max_depth, sink, mark_name}.Run();
 }
 
 }  // namespace ncport::ir

@@ -9,6 +9,8 @@
 //   Repeat  -> its Until,     Until -> its Repeat: false: the block behind Repeat
 #pragma once
 
+#include <string_view>
+
 #include "base/diag/sink.h"
 #include "ir/module.h"
 
@@ -19,6 +21,8 @@ namespace ncport::ir {
 /// finding at its place with a note at its partner or at the mark that ended it, and its block is marked kRefused.
 /// A mark that the frontend refused keeps its place in the structure: a Verbatim with the mark's WordOp as Word::index.
 /// `max_depth`: nesting that the language allows (0 = no limit); the first mark beyond it is a finding.
-void BuildStructure(Module& module, ProgramId program, std::uint32_t max_depth, diag::Sink& sink);
+/// `mark_name`: how findings call a mark, as the language writes it.
+void BuildStructure(Module& module, ProgramId program, std::uint32_t max_depth, diag::Sink& sink,
+                    std::string_view (*mark_name)(WordOp) = nullptr);
 
 }  // namespace ncport::ir

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <iterator>
+#include <vector>
 
 #include "base/diag/place.h"
 
@@ -30,9 +32,19 @@ Json Location(const Place& place) {
   return Json{{"physicalLocation", std::move(physical)}};
 }
 
-Json Rules() {
+/// The codes that were found, in order; results name their place here.
+std::vector<Code> CodesOf(const Sink& sink) {
+  std::vector<Code> codes;
+  for (const Diagnostic& diagnostic : sink.All()) codes.push_back(diagnostic.code);
+  std::sort(codes.begin(), codes.end());
+  codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
+  return codes;
+}
+
+Json Rules(const std::vector<Code>& codes) {
   Json rules = Json::array();
-  for (const Info& info : AllInfos()) {
+  for (const Code code : codes) {
+    const Info& info = InfoOf(code);
     rules.push_back({{"id", info.number},
                      {"name", info.name},
                      {"shortDescription", Text(info.text)},
@@ -52,9 +64,9 @@ std::string MessageOf(const Diagnostic& diagnostic, const SourceFiles& files) {
   return text;
 }
 
-Json Result(const Diagnostic& diagnostic, const SourceFiles& files) {
+Json Result(const Diagnostic& diagnostic, const SourceFiles& files, const std::vector<Code>& codes) {
   Json result{{"ruleId", InfoOf(diagnostic.code).number},
-              {"ruleIndex", static_cast<std::size_t>(diagnostic.code)},
+              {"ruleIndex", std::lower_bound(codes.begin(), codes.end(), diagnostic.code) - codes.begin()},
               {"level", LevelOf(diagnostic.severity)},
               {"message", Text(MessageOf(diagnostic, files))}};
   const Place place = PlaceOf(diagnostic.at, files);
@@ -98,8 +110,9 @@ std::string UriOf(std::string_view file) {
 
 std::string RenderSarif(const Sink& sink, const SourceFiles& files, std::string_view tool_version) {
   Json results = Json::array();
-  for (const Diagnostic& diagnostic : sink.All()) results.push_back(Result(diagnostic, files));
-  Json driver{{"name", "ncport"}, {"version", tool_version}, {"rules", Rules()}};
+  const std::vector<Code> codes = CodesOf(sink);
+  for (const Diagnostic& diagnostic : sink.All()) results.push_back(Result(diagnostic, files, codes));
+  Json driver{{"name", "ncport"}, {"version", tool_version}, {"rules", Rules(codes)}};
   Json run{
       {"tool", {{"driver", std::move(driver)}}}, {"columnKind", "unicodeCodePoints"}, {"results", std::move(results)}};
   const Json root{{"$schema", "https://json.schemastore.org/sarif-2.1.0.json"},

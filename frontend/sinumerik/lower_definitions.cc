@@ -178,14 +178,14 @@ bool Lowering::DoDefinition(const Action& action) {
       definition_.string_length = 0;
       ClearDimensions();
       if (action.arg != 0 && !LiteralInt(Pop(), kMaxText, definition_.string_length)) {
-        return Fail(Code::kOutOfRange, token, nullptr, "the length of a STRING: a constant up to 200");
+        return Fail(Code::kOutOfRange, token, "write a constant up to 200", "the lengths of STRING");
       }
       return true;
     case Step::kDimension: {
       const ExprId size = Pop();
       std::uint32_t count = 0;
       if (size.Valid() && (!LiteralInt(size, kMaxDimension, count) || count == 0)) {
-        return Fail(Code::kOutOfRange, token, nullptr, "the size of an array: a constant from 1");
+        return Fail(Code::kOutOfRange, token, "write a constant from 1", "the sizes of an array");
       }
       if (definition_.dimension_count == 3)
         return Fail(Code::kUnexpectedText, token, "arrays have up to three dimensions");

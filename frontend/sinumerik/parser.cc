@@ -90,6 +90,13 @@ Recipe BlockParser::Parse(std::span<const Token> tokens) {
       recipe.error.help = "a subprogram call has a block of its own; a variable is set with =";
     } else if (strategy.OnlyExpected() == Parser::Name && IsReserved(kind_at(at))) {
       recipe.error.code = diag::Code::kReservedName;
+    } else if (strategy.OnlyExpected() == Parser::Name && at < tokens.size()) {
+      recipe.error.help = "a name begins with two letters, or with _ and a letter";
+    } else if (strategy.OnlyExpected() == Parser::Equals && at > 0 && at >= tokens.size() &&
+               kind_at(at - 1) == TokenKind::kAxis) {
+      recipe.error.code = diag::Code::kMissingValue;
+      recipe.error.token = static_cast<std::uint16_t>(at - 1);
+      recipe.error.expected = nullptr;
     } else if (kind_at(at) == TokenKind::kBlockNumber) {
       recipe.error.help = "the block number stands at the start of the block";
     }

@@ -68,6 +68,36 @@ WordOp MarkOf(K structure, std::span<const Token> tokens, std::string_view text)
   }
 }
 
+/// A mark as programs write it.
+std::string_view MarkName(WordOp mark) {
+  switch (mark) {
+    case WordOp::kIf:
+      return "IF";
+    case WordOp::kElse:
+      return "ELSE";
+    case WordOp::kEndIf:
+      return "ENDIF";
+    case WordOp::kWhile:
+      return "WHILE";
+    case WordOp::kEndWhile:
+      return "ENDWHILE";
+    case WordOp::kFor:
+      return "FOR";
+    case WordOp::kEndFor:
+      return "ENDFOR";
+    case WordOp::kLoop:
+      return "LOOP";
+    case WordOp::kEndLoop:
+      return "ENDLOOP";
+    case WordOp::kRepeat:
+      return "REPEAT";
+    case WordOp::kUntil:
+      return "UNTIL";
+    default:
+      return NameOf(mark);
+  }
+}
+
 class Reader {
  public:
   Reader(const SourceFiles& files, FileId file, const dialects::Profile& profile, const ReadOptions& options,
@@ -89,7 +119,7 @@ class Reader {
     const std::uint32_t lines = files_.LineCount(file_);
     module_.blocks.Reserve(module_.blocks.Size() + lines);
     module_.origins.Reserve(module_.origins.Size() + lines);
-    for (std::uint32_t line = 1; line <= lines; ++line) {
+    for (std::uint32_t line = FirstLine(lines); line <= lines; ++line) {
       const std::string_view text = files_.Line(file_, line);
       if (!text.empty() && text[0] == '%' && ReadFileMark(text, line)) continue;
       if (!state_.program.Valid())
@@ -100,6 +130,16 @@ class Reader {
   }
 
  private:
+  /// Empty lines in front of the first header are no program of their own (the leader of a punch tape).
+  [[nodiscard]] std::uint32_t FirstLine(std::uint32_t lines) const {
+    for (std::uint32_t line = 1; line <= lines; ++line) {
+      const std::string_view text = TrimEnd(files_.Line(file_, line));
+      if (text.empty()) continue;
+      return IsHeader(text) ? line : 1;
+    }
+    return 1;
+  }
+
   void StartProgram(std::string_view name, ir::ProgramKind kind) {
     EndProgram();
     ir::Program program;
@@ -119,18 +159,24 @@ class Reader {
     if (!state_.program.Valid()) return;
     ir::Program& program = module_.programs[state_.program];
     program.blocks.count = static_cast<std::uint32_t>(module_.blocks.Size()) - program.blocks.begin;
-    ir::BuildStructure(module_, state_.program, 0, sink_);
+    ir::BuildStructure(module_, state_.program, 0, sink_, MarkName);
     state_.program = {};
   }
 
-  // %_N_NAME_MPF starts a program (card 1.1); any other line with % only frames the text.
+  /// `%_N_NAME_MPF` or `%NAME_MPF` starts a program (card 1.1).
+  static bool IsHeader(std::string_view mark) {
+    if (mark.size() < 5 || mark[0] != '%') return false;
+    const std::string_view name = mark.substr(1);
+    return IsWord(name.substr(0, 3), "_N_") || EndsWithWord(name, "_MPF") || EndsWithWord(name, "_SPF");
+  }
+
+  // Any other line with % only frames the text.
   bool ReadFileMark(std::string_view text, std::uint32_t line) {
     const std::string_view mark = TrimEnd(text);
     const std::string_view name = mark.substr(1);
     const bool main = EndsWithWord(name, "_MPF");
     const bool definitions = EndsWithWord(name, "_DEF");
-    const bool header = name.size() > 3 && (IsWord(name.substr(0, 3), "_N_") || main || EndsWithWord(name, "_SPF"));
-    if (header) {
+    if (IsHeader(mark)) {
       StartProgram(PlainProgramName(name), main ? ir::ProgramKind::kMain : ir::ProgramKind::kSub);
       state_.named_by_header = true;
       state_.definition_file = definitions;

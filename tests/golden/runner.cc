@@ -101,15 +101,16 @@ std::optional<Case> Produce(const std::string& binary, const Case& asked, std::s
   Case result;
   result.note = asked.note;
   for (const Part& part : asked.parts) {
-    if (part.kind == "run") result.parts.push_back(part);
+    if (part.kind == "run" || part.kind == "input") result.parts.push_back(part);
     if (part.kind != "file") continue;
     fs::create_directories(fs::path(folder.File(part.name)).parent_path());
     folder.Write(part.name, part.text);
     result.parts.push_back(part);
   }
   std::vector<std::string> words = CommandWords(run->name);
-  words.insert(words.begin(), binary);
-  const ProcessResult done = RunProcess(words, {}, 60, folder.Path());
+  words.insert(words.begin(), fs::absolute(binary).string());
+  const Part* input = asked.Find("input");
+  const ProcessResult done = RunProcess(words, input == nullptr ? "" : input->text, 60, folder.Path());
   if (!done.Clean()) {
     why = done.timed_out ? "took more than a minute"
                          : "ended by a signal, code " + std::to_string(done.exit_code) + "\n" + Tail(done.errors, 5);
@@ -130,6 +131,14 @@ std::optional<Case> Produce(const std::string& binary, const Case& asked, std::s
   return result;
 }
 
+/// Codes of the findings in a report for reading; pages and lists that name codes show none.
+std::set<std::string> CodesFound(const std::string& report) {
+  static const std::regex found("(?:error|warning|info)\\[(NC[0-9]{4})\\]: ");
+  std::set<std::string> codes;
+  for (std::sregex_iterator i(report.begin(), report.end(), found), end; i != end; ++i) codes.insert((*i)[1]);
+  return codes;
+}
+
 /// First line in which two texts differ.
 std::string FirstDifference(const std::string& expected, const std::string& actual) {
   std::istringstream left(expected), right(actual);
@@ -144,6 +153,7 @@ std::string FirstDifference(const std::string& expected, const std::string& actu
   }
 }
 
+/// Codes of a list of diagnostics.
 std::set<std::string> CodesIn(const std::string& text) {
   static const std::regex code("NC[0-9]{4}");
   std::set<std::string> codes;
@@ -169,7 +179,7 @@ int Main(const std::string& binary, const fs::path& folder, const std::string& c
     const std::string text = ReadFileOrDie(file.string());
     const Case asked = ReadCase(text);
     for (const Part& part : asked.parts) {
-      if (part.kind == "stdout" || part.kind == "stderr") seen.merge(CodesIn(part.text));
+      if (part.kind == "stdout" || part.kind == "stderr") seen.merge(CodesFound(part.text));
     }
     if (name.find(only) == std::string::npos) continue;
     std::string why;

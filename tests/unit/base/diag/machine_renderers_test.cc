@@ -79,7 +79,7 @@ TEST_CASE("SARIF names rules by index and counts as the schema says") {
   const auto& run = json["runs"][0];
   const auto& driver = run["tool"]["driver"];
   CHECK(driver["version"] == "9.8.7");
-  CHECK(driver["rules"].size() == AllInfos().size());
+  CHECK(driver["rules"].size() == 2);
   REQUIRE(run["results"].size() == 2);
   const auto& result = run["results"][0];
   CHECK(driver["rules"][result["ruleIndex"].get<std::size_t>()]["id"] == result["ruleId"]);

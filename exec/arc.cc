@@ -130,7 +130,10 @@ void Kinematics::ArcMove(const BlockWork& work, bool clockwise) {
   const PlaneMap map = MapPlane(channel_.frame, channel_.modal.plane);
   if (!map.parallel)
     return session_.Refuse(diag::Code::kCannotRun, "an arc in a plane that the frame tilts out of the main planes");
-  if (!map.similar) return session_.Refuse(diag::Code::kCannotRun, "an arc under different scale factors");
+  if (!map.similar) {
+    if (work.Has(BlockWork::kRadius) && channel_.layers.scales) return ScaledArc(work, axes, arc);
+    return session_.Refuse(diag::Code::kCannotRun, "an arc under different scale factors");
+  }
 
   // The centre in trace coordinates, at the height of the start.
   double center_work[ir::kMaxAxes] = {};
@@ -150,6 +153,28 @@ void Kinematics::ArcMove(const BlockWork& work, bool clockwise) {
   if (session_.halted) return;
   SendArc(work, map.plane, {center_base[base.first], center_base[base.second]}, arc.clockwise != map.mirrored,
           arc.start_radius * map.scale, full);
+}
+
+/// Under unequal factors a radius takes the larger one; the ends are scaled each by its own (fanuc-8.6).
+void Kinematics::ScaledArc(const BlockWork& work, const PlaneAxes& axes, const Arc& programmed) {
+  const PlaneMap map = MapPlane(channel_.frame, channel_.modal.plane);
+  const FrameLayers& layers = channel_.layers;
+  const double factor = std::fmax(std::fabs(layers.factor[axes.first]), std::fabs(layers.factor[axes.second]));
+  target_[axes.first] = programmed.end.u;
+  target_[axes.second] = programmed.end.v;
+  moved_ |= Bits(axes);
+  Adopt();
+  if (session_.halted) return;
+  const PlaneAxes base = AxesOf(map.plane);
+  const ir::Machine& machine = session_.machine;
+  const ArcTolerance tolerance{machine.circle_tolerance, machine.circle_tolerance_factor, machine.arc_center_corrected,
+                               machine.arc_correction_angle};
+  const bool clockwise = programmed.clockwise != map.mirrored;
+  const Arc arc =
+      ArcByRadius({from_[base.first], from_[base.second]}, {channel_.base[base.first], channel_.base[base.second]},
+                  work.radius * LengthFactor() * factor, clockwise, tolerance);
+  if (ArcTrouble(arc)) return;
+  SendArc(work, map.plane, arc.center, clockwise, arc.start_radius, false);
 }
 
 void Kinematics::SendArc(const BlockWork& work, ir::Plane base_plane, Point base_center, bool clockwise, double radius,

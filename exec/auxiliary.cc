@@ -31,8 +31,10 @@ Channel::Spindle* Auxiliary::SpindleOf(std::uint8_t index) {
 
 void Auxiliary::Act(const ir::Word& word, const Value& value, bool edge_follows) {
   switch (word.op) {
-    case WordOp::kSpeed:
-      return Speed(word, evaluator_.ToNumber(value));
+    case WordOp::kSpeed: {
+      const double speed = evaluator_.ToNumber(value);
+      return Speed(word, (word.flags & ir::Word::kRoundsValue) != 0 ? ir::ops::Round(speed) : speed);
+    }
     case WordOp::kSpeedLimit: {
       Channel::Spindle* const spindle = SpindleOf(word.index);
       if (spindle == nullptr) return;
@@ -166,7 +168,7 @@ void Auxiliary::Alarm(const ir::Word& word, const Value& value) {
   }
   if (!shows) {
     session_.Alarm(ir::AlarmClass::kUser, text.View());
-    session_.alarm_code = std::to_string(number);
+    session_.alarm_code = std::to_string(session_.ShownAlarm(number));
     return;
   }
   if (text.Empty()) text.Append(std::to_string(number));

@@ -37,9 +37,21 @@ struct BlockWork {
     kSpeedLimit = 1U << 22U,
     kEdge = 1U << 23U,
     kFeedMode = 1U << 24U,
+    kCycleWord = 1U << 25U,  // a cycle begins or ends here
   };
 
+  static constexpr std::size_t kCycleFields = 32;
+
   std::uint32_t has = 0;
+  std::uint32_t scaled = 0;         // single words that count increments (Word::kIncrements)
+  std::uint32_t rounded_words = 0;  // single words that pass through Machine::word_error
+  std::uint32_t cycle_fields = 0;   // bit per ir::CycleField
+  std::uint32_t cycle_scaled = 0;
+  std::uint16_t scaled_axes = 0;
+  std::uint8_t scaled_centers = 0;
+  std::uint8_t rounded_centers = 0;
+  std::uint8_t factors = 0;  // bits: all axes, X, Y, Z
+  std::uint8_t scaled_factors = 0;
   std::uint16_t axes = 0;
   std::uint16_t rounded = 0;  // axes whose word passes through Machine::word_error
   std::uint8_t centers = 0;   // bits I J K
@@ -48,6 +60,10 @@ struct BlockWork {
   double axis[ir::kMaxAxes];
   ir::ValueMode axis_mode[ir::kMaxAxes];
   double center[3];
+  double center_written[3];  // before increments are counted: K of a cycle is a count
+  double factor[4];
+  double cycle_value[kCycleFields];
+  ir::Cycle cycle;
   ir::ValueMode center_mode[3];
   double via[3];
   ir::ValueMode via_mode[3];
@@ -61,9 +77,22 @@ struct BlockWork {
   bool dwell_revolutions;
   ir::Motion one_shot;
 
+  [[nodiscard]] bool HasField(ir::CycleField field) const {
+    return (cycle_fields >> static_cast<unsigned>(field) & 1U) != 0;
+  }
+  [[nodiscard]] double Field(ir::CycleField field) const { return cycle_value[static_cast<std::size_t>(field)]; }
   [[nodiscard]] bool Has(std::uint32_t bits) const { return (has & bits) != 0; }
   void Clear() {
     has = 0;
+    scaled = 0;
+    rounded_words = 0;
+    cycle_fields = 0;
+    cycle_scaled = 0;
+    scaled_axes = 0;
+    scaled_centers = 0;
+    rounded_centers = 0;
+    factors = 0;
+    scaled_factors = 0;
     axes = 0;
     rounded = 0;
     centers = 0;

@@ -48,9 +48,11 @@ ir::ProgramId Runner::Callee(const ir::Call& call) {
   if (call.name_expr.Valid()) {
     const Value value = evaluator_.Eval(call.name_expr);
     if (session_.halted) return {};
-    TextBuffer text;
-    evaluator_.AppendText(text, value);
-    name = text.View();
+    if (value.IsText()) {
+      name = evaluator_.TextOf(value);
+    } else {
+      name = fmt::format("{}{:.0f}", session_.machine.program_prefix, ops::Round(evaluator_.ToNumber(value)));
+    }
   }
   const ir::ProgramId found = session_.module.FindProgram(PlainName(name), true);
   if (!found.Valid()) session_.Refuse(diag::Code::kUnknownProgram, name);
@@ -93,7 +95,10 @@ bool Runner::EvalArguments(const ir::Call& call, ir::ProgramId program, std::uin
   for (const ir::ArgId id : call.args) {
     const ir::Arg& arg = module.args[id];
     if (arg.letter != 0) {
-      arguments_.push_back(arg.value.Valid() ? evaluator_.Eval(arg.value) : Value::Vacant());
+      Value value = arg.value.Valid() ? evaluator_.Eval(arg.value) : Value::Vacant();
+      if (arg.increments)
+        value.number *= kinematics_.Increment(arg.letter == 'A' || arg.letter == 'B' || arg.letter == 'C');
+      arguments_.push_back(value);
       continue;
     }
     if (!arg.value.Valid()) continue;
@@ -152,12 +157,24 @@ bool Runner::Call(ir::CallId id) {
   if (session_.halted || !Deeper() || !EvalArguments(call, program, given)) return true;
 
   const ir::Program& callee = session_.module.programs[program];
+  std::uint32_t begin = callee.blocks.begin;
+  if (call.from_block) {
+    std::string name;
+    const BlockId first =
+        FindTarget(call.from, program, BlockId{std::size_t{begin}}, ir::Search::kForwardThenFromStart, name);
+    if (session_.halted) return true;
+    if (!first.Valid()) {
+      session_.Alarm(ir::AlarmClass::kMissingTarget, fmt::format("block {} not found", name));
+      return true;
+    }
+    begin = first.value;
+  }
   const std::uint32_t level_cells = call.new_level ? session_.linked.LevelCells() : 0;
   const bool again = passes > 1 && !session_.machine.passes_keep_locals;
   Level level;
   level.kind = LevelKind::kCall;
   level.program = program;
-  level.begin = callee.blocks.begin;
+  level.begin = begin;
   level.end = callee.blocks.begin + callee.blocks.count;
   level.from = session_.block;
   level.finish_block = (session_.linked.UseOf(session_.block) & kUseLast) != 0;

@@ -13,6 +13,36 @@ namespace ncport::exec {
 
 constexpr std::uint16_t AxisBit(std::uint8_t axis) { return static_cast<std::uint16_t>(1U << axis); }
 
+/// The programmable frame of controls where shift, rotation, scale and mirror stand beside each other: the frame is
+/// made from these whenever one of them changes. Coordinates in mm and degrees, transverse axis as radius.
+struct FrameLayers {
+  double shift[ir::kMaxAxes] = {};   // local shift
+  double preset[ir::kMaxAxes] = {};  // shift by which the present position got new values
+  bool rotates = false;
+  std::uint8_t rotation_axis = 2;
+  double rotation_center[3] = {};
+  double angle = 0;
+  bool scales = false;
+  double scale_center[3] = {};
+  double factor[3] = {1, 1, 1};
+  std::uint16_t mirrored = 0;
+  double mirror_at[ir::kMaxAxes] = {};
+};
+
+/// A canned cycle in force and the data that stay stored for it. Levels are workpiece coordinates in mm.
+struct CycleState {
+  ir::Cycle cycle = ir::Cycle::kNone;
+  bool initial_known = false, level_known = false, depth_known = false, step_known = false, dwell_known = false;
+  double initial = 0;  // level of the drilling axis before the cycle
+  double level = 0;
+  double depth = 0;
+  double step = 0;
+  double dwell = 0;  // seconds
+  double taper = 0;
+  std::uint16_t ends_known = 0;  // turning: axes whose end is stored
+  double end[3] = {};
+};
+
 struct Channel {
   ir::ModalState modal;
 
@@ -25,6 +55,9 @@ struct Channel {
   std::uint16_t uncertain = 0;  // last moved under another work offset or to a probe: good to show, not to compute with
   std::uint16_t programmed = 0;  // axes of the trace that the run has named
   Frame frame;
+  FrameLayers layers;
+  CycleState cycle;
+  bool polar_words = false;  // words of the plane are radius and angle
 
   // Feed: mm/min, mm/rev or 1/min by the mode in which it was written.
   bool feed_known = false;

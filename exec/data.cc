@@ -11,6 +11,25 @@ namespace ncport::exec {
 void Runner::Assign(const ir::Word& word, const Value& value) {
   const Place place = evaluator_.PlaceOf(word.Extra<ir::ExprId>());
   if (!session_.halted) evaluator_.Store(place, value);
+  if (session_.message_stop) {
+    // A numbered variable whose write shows the comment of the block and stops.
+    session_.message_stop = false;
+    Event& event = emitter_.Begin(EventKind::kMessage);
+    event.text = session_.CommentText();
+    emitter_.Send(event);
+    emitter_.Send(emitter_.Begin(EventKind::kStop));
+  }
+}
+
+/// Data of the machine are written. None of them shows in traces, but with another work offset nobody knows where the
+/// axes stand in the work system.
+void Runner::DataSetting(ir::CallId id) {
+  for (const ir::ArgId arg : session_.module.calls[id].args) {
+    const ir::Arg& data = session_.module.args[arg];
+    const Value value = evaluator_.Eval(data.value);
+    if (session_.halted) return;
+    if (data.letter == 'L' && (value.number == 2 || value.number == 20)) channel_.uncertain |= channel_.base_known;
+  }
 }
 
 void Runner::AssignList(ir::AssignListId id) {

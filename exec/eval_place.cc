@@ -100,6 +100,23 @@ Place Evaluator::CellPlace(ir::SpaceId id, double number) {
   Place place;
   const double rounded = ops::Round(number);
   if (!(rounded >= space.first && rounded <= space.last)) {
+    // The number decides what it is: a cell of another space of that name, something of the machine, or nothing.
+    for (const ir::SpaceId other : module_.spaces.Ids()) {
+      const ir::Space& candidate = module_.spaces[other];
+      if (candidate.name == space.name && rounded >= candidate.first && rounded <= candidate.last)
+        return CellPlace(other, number);
+    }
+    for (const ir::NumberedSystem& system : machine_.numbered_systems) {
+      if (!(rounded >= system.first && rounded <= system.last)) continue;
+      place.kind = Place::Kind::kSystem;
+      place.numbered = &system;
+      place.number = static_cast<std::uint32_t>(rounded);
+      return place;
+    }
+    if (rounded == 0 && space.type == Type::kNumber) {
+      place.kind = Place::Kind::kVacant;
+      return place;
+    }
     session_.Alarm(ir::AlarmClass::kIndex, fmt::format("{}{:.0f} does not exist", module_.View(space.name), rounded));
     return place;
   }
@@ -142,6 +159,8 @@ Place Evaluator::PlaceOf(ExprId id) {
 
 Value Evaluator::Load(const Place& place) {
   if (place.kind == Place::Kind::kNone) return ZeroOf(place.type);
+  if (place.kind == Place::Kind::kVacant) return Value::Vacant();
+  if (place.kind == Place::Kind::kSystem) return place.numbered != nullptr ? ReadNumbered(place) : Eval(place.expr);
   Value& cell = memory_[place.address];
   if (place.kind == Place::Kind::kCharacter) {
     const std::string_view text = texts_.View(cell);
@@ -197,8 +216,11 @@ void Evaluator::Store(const Place& place, const Value& value, std::uint32_t offs
   switch (place.kind) {
     case Place::Kind::kNone:
       return;
+    case Place::Kind::kVacant:
+      session_.Alarm(ir::AlarmClass::kIndex, "variable 0 cannot be written");
+      return;
     case Place::Kind::kSystem:
-      StoreSystem(place, value);
+      place.numbered != nullptr ? StoreNumbered(place, value) : StoreSystem(place, value);
       return;
     case Place::Kind::kCharacter:
       StoreCharacter(place, value);

@@ -1,5 +1,6 @@
 // System variables that follow from the program itself; all others are asked from the environment.
 #include <cmath>
+#include <string>
 
 #include "exec/evaluator.h"
 #include "ir/ops/arithmetic.h"
@@ -13,6 +14,8 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr std::size_t kMostIndices = 4;
+/// Key of user memory that belongs to a numbered variable, beside those of named ones.
+constexpr std::uint32_t kNumberedKey = 0xFFFFFFFEU;
 
 /// Spoken code of a state, as GroupCode::index counts it.
 std::uint8_t IndexOf(const ir::ModalState& modal, ir::WordOp op) {
@@ -69,6 +72,11 @@ Value Evaluator::EvalSystem(const Expr& expr) {
   const std::size_t count = expr.count < kMostIndices ? expr.count : kMostIndices;
   for (std::size_t i = 0; i < count; ++i) indices[i] = Eval(module_.Item(expr.b + static_cast<std::uint32_t>(i)));
   if (session_.halted) return ZeroOf(system.type);
+  return ReadSystem(system, expr.a, name, indices, count);
+}
+
+Value Evaluator::ReadSystem(const ir::System& system, std::uint32_t key, std::string_view name, const Value* indices,
+                            std::size_t count) {
   const double first = count > 0 ? ir::ops::Round(indices[0].number) : 0;
   const bool inch_lengths =
       channel_.modal.units == ir::Units::kInch || channel_.modal.units == ir::Units::kInchGeometry;
@@ -126,7 +134,11 @@ Value Evaluator::EvalSystem(const Expr& expr) {
     case SystemKind::kProgramLevel:
       return Value::Int(facts_.depth);
     case SystemKind::kUserMemory: {
-      const auto cell = user_cells_.find(UserKey(expr.a, first));
+      if (count == 0 && system.number != 0) {
+        const auto numbered = user_cells_.find(UserKey(kNumberedKey, system.number));
+        return numbered != user_cells_.end() ? numbered->second : ZeroOf(system.type);
+      }
+      const auto cell = user_cells_.find(UserKey(key, first));
       return cell != user_cells_.end() ? cell->second : ZeroOf(system.type);  // cleared at reset
     }
     case SystemKind::kEnvironment:
@@ -149,6 +161,10 @@ void Evaluator::StoreSystem(const Place& place, const Value& value) {
   if (system.kind == SystemKind::kUserMemory) {
     constexpr std::size_t kMostCells = 100'000;
     const Value converted = Converted(value, system.type);
+    if (count == 0 && system.number != 0) {
+      user_cells_[UserKey(kNumberedKey, system.number)] = converted;
+      return;
+    }
     const double index = count > 0 ? ir::ops::Round(indices[0].number) : 0;
     if (!(index >= 0 && index <= 4e9) || user_cells_.size() >= kMostCells) {
       session_.Alarm(ir::AlarmClass::kIndex, fmt::format("index {:.0f} of {}", index, name));
@@ -163,6 +179,72 @@ void Evaluator::StoreSystem(const Place& place, const Value& value) {
   }
   if (!session_.environment.Write(system, name, indices, count, value))
     session_.Refuse(diag::Code::kMachineValue, name);
+}
+
+namespace {
+
+ir::System SystemOf(const Place& place) {
+  ir::System system;
+  system.kind = place.numbered->kind;
+  system.writable = place.numbered->writable;
+  system.number = place.number;
+  return system;
+}
+
+}  // namespace
+
+Value Evaluator::ReadNumbered(const Place& place) {
+  const ir::System system = SystemOf(place);
+  const std::string name = fmt::format("#{}", place.number);
+  if (!place.numbered->readable) {
+    session_.Alarm(ir::AlarmClass::kIndex, fmt::format("{} cannot be read", name));
+    return Value::Real(0);
+  }
+  const std::uint32_t index = place.number - place.numbered->base;
+  if (system.kind == SystemKind::kProgrammedPosition || system.kind == SystemKind::kMachinePosition) {
+    if (index == 0 || index > machine_.position_axes.size()) {
+      session_.Alarm(ir::AlarmClass::kIndex, fmt::format("{}: the machine has no axis {}", name, index));
+      return Value::Real(0);
+    }
+    const Value axis = Value::Axis(machine_.position_axes[index - 1]);
+    return ReadSystem(system, kNumberedKey, name, &axis, 1);
+  }
+  if (system.kind == SystemKind::kModalGroup) {
+    const Value group = Value::Int(index);
+    return ReadSystem(system, kNumberedKey, name, &group, 1);
+  }
+  if (system.kind == SystemKind::kUserMemory) {
+    const Value number = Value::Int(place.number);
+    return ReadSystem(system, kNumberedKey, name, &number, 1);
+  }
+  return ReadSystem(system, kNumberedKey, name, nullptr, 0);
+}
+
+void Evaluator::StoreNumbered(const Place& place, const Value& value) {
+  const std::string name = fmt::format("#{}", place.number);
+  switch (place.numbered->effect) {
+    case ir::WriteEffect::kAlarm: {
+      const double number = ir::ops::Round(ToNumber(value));
+      session_.Alarm(ir::AlarmClass::kUser, session_.CommentText());
+      session_.alarm_code = std::to_string(session_.ShownAlarm(number >= 0 ? static_cast<std::uint32_t>(number) : 0));
+      return;
+    }
+    case ir::WriteEffect::kMessageStop:
+      session_.message_stop = true;
+      return;
+    case ir::WriteEffect::kNone:
+      break;
+  }
+  const ir::System system = SystemOf(place);
+  if (system.kind == SystemKind::kUserMemory) {
+    user_cells_[UserKey(kNumberedKey, place.number)] = value;
+    return;
+  }
+  if (!system.writable) {
+    session_.Alarm(ir::AlarmClass::kIndex, fmt::format("{} cannot be written", name));
+    return;
+  }
+  if (!session_.environment.Write(system, name, nullptr, 0, value)) session_.Refuse(diag::Code::kMachineValue, name);
 }
 
 }  // namespace ncport::exec

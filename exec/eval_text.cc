@@ -113,6 +113,16 @@ Value Evaluator::EvalTextFunction(const Expr& expr) {
       AppendText(written, args[0]);
       return NewText(written.View());
     }
+    case Function::kFixedText: {
+      if (args[0].IsVacant()) {
+        session_.Alarm(ir::AlarmClass::kConversion, "an empty variable is printed");
+        return Value::Text(0);
+      }
+      TextBuffer fixed;
+      ops::AppendFixedText(fixed, ToNumber(args[0]), static_cast<int>(args[1].number), static_cast<int>(args[2].number),
+                           machine_.fixed_text_pads);
+      return NewText(fixed.View());
+    }
     case Function::kIsVariable:
       return Value::Bool(IsKnownVariable(text));
     case Function::kAxisToText:

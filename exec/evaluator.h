@@ -27,16 +27,18 @@ struct CallFacts {
 
 /// A place that can be written.
 struct Place {
-  enum class Kind : std::uint8_t { kNone, kCell, kCharacter, kSystem };
+  enum class Kind : std::uint8_t { kNone, kCell, kCharacter, kSystem, kVacant /* #0: always empty */ };
   Kind kind = Kind::kNone;
   ir::Type type = ir::Type::kAny;  // kCell: type that a stored value gets
   Memory::Address address = 0;
-  std::uint32_t string_length = 0;  // of a STRING; 0 = the machine's longest
-  std::uint32_t index = 0;          // kCharacter
-  ir::VariableId variable;          // for limits and messages
-  ir::ExprId expr;                  // kSystem
-  std::uint32_t room = 1;           // elements from here to the end of the array
-  double cell_max = 0;              // numbered cells: largest magnitude, 0 = any
+  std::uint32_t string_length = 0;               // of a STRING; 0 = the machine's longest
+  std::uint32_t index = 0;                       // kCharacter
+  ir::VariableId variable;                       // for limits and messages
+  ir::ExprId expr;                               // kSystem: a named one
+  const ir::NumberedSystem* numbered = nullptr;  // kSystem: one by number
+  std::uint32_t number = 0;                      // of it
+  std::uint32_t room = 1;                        // elements from here to the end of the array
+  double cell_max = 0;                           // numbered cells: largest magnitude, 0 = any
 };
 
 class Evaluator {
@@ -95,6 +97,10 @@ class Evaluator {
   Memory::Address AddressOf(ir::VariableId id, const ir::Variable& variable);
   std::uint32_t Index(ir::ExprId id, std::uint32_t count, std::string_view name, bool& ok);
   void StoreSystem(const Place& place, const Value& value);
+  Value ReadSystem(const ir::System& system, std::uint32_t key, std::string_view name, const Value* indices,
+                   std::size_t count);
+  Value ReadNumbered(const Place& place);
+  void StoreNumbered(const Place& place, const Value& value);
   void StoreCharacter(const Place& place, const Value& value);
   bool WithinLimits(const ir::Variable& variable, const Value& value);
   double Operand(const Value& value, const ir::Expr& expr);

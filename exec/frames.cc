@@ -1,4 +1,6 @@
 // Words that change the programmable frame, the pole, or the zero point.
+#include <cmath>
+
 #include "exec/kinematics.h"
 #include "ir/ops/trigonometry.h"
 
@@ -10,6 +12,7 @@ using ir::FrameOp;
 /// act in a fixed order whatever was written: about Z, then the new Y, then the new X; else Z, X, Z is the order of the
 /// machine.
 void Kinematics::ApplyFrame(const BlockWork& work) {
+  if (work.frame >= FrameOp::kLocalShift) return ApplyLayer(work);
   Frame& frame = channel_.frame;
   const bool additive = work.frame >= FrameOp::kAddTranslate && work.frame <= FrameOp::kAddMirror;
   if (!additive) frame.Reset();
@@ -67,6 +70,134 @@ void Kinematics::ApplyFrame(const BlockWork& work) {
   FrameChanged();
 }
 
+/// Centre of a layer along one axis: the word, always absolute, or the present position. Seen from inside of the shift.
+bool Kinematics::LayerCenter(const BlockWork& work, std::uint8_t axis, double& center) {
+  const FrameLayers& layers = channel_.layers;
+  if ((work.axes & AxisBit(axis)) == 0) {
+    if ((channel_.base_known & ~channel_.uncertain & AxisBit(axis)) == 0) {
+      session_.Refuse(diag::Code::kCannotRun,
+                      fmt::format("the centre needs the position of {}, which is not known", NameOf(axis)));
+      return false;
+    }
+    center = channel_.base[axis] - layers.shift[axis] - layers.preset[axis];
+    return true;
+  }
+  if (Unknown(channel_.modal.units == ir::Units::kUnknown, "the unit of lengths")) return false;
+  center = work.axis[axis] * LengthFactor();
+  if ((work.scaled_axes & AxisBit(axis)) != 0) center *= Increment(false);
+  // The words are coordinates of the program: what acts inside of this layer moves them too.
+  if ((layers.mirrored & AxisBit(axis)) != 0) center = 2 * layers.mirror_at[axis] - center;
+  if (work.frame == FrameOp::kRotateAbout && layers.scales && axis < 3) {
+    center = layers.scale_center[axis] + layers.factor[axis] * (center - layers.scale_center[axis]);
+  }
+  return true;
+}
+
+/// Shift, rotation, scale and mirror as layers: each word replaces its own one, the order between them is fixed
+/// (fanuc-8.4 to 8.6).
+void Kinematics::ApplyLayer(const BlockWork& work) {
+  FrameLayers& layers = channel_.layers;
+  const ir::Machine& machine = session_.machine;
+  switch (work.frame) {
+    case FrameOp::kLocalShift:
+      for (std::uint8_t axis = 0; axis < ir::kMaxAxes; ++axis) {
+        if ((work.axes & AxisBit(axis)) == 0) continue;
+        const bool rotary = ir::IsRotary(axis);
+        if (!rotary && Unknown(channel_.modal.units == ir::Units::kUnknown, "the unit of lengths")) return;
+        double value = work.axis[axis] * (rotary ? 1 : LengthFactor());
+        if ((work.scaled_axes & AxisBit(axis)) != 0) value *= Increment(rotary);
+        if (axis == machine.transverse_axis && machine.frame_shift_in_diameter &&
+            TransverseInDiameter(ir::ValueMode::kAbsolute, false))
+          value /= 2;
+        layers.shift[axis] = value;
+      }
+      break;
+    case FrameOp::kRotateAbout: {
+      if (Unknown(channel_.modal.plane == ir::Plane::kUnknown, "the plane")) return;
+      const PlaneAxes axes = AxesOf(channel_.modal.plane);
+      double center[2] = {};
+      if (!LayerCenter(work, axes.first, center[0]) || !LayerCenter(work, axes.second, center[1])) return;
+      double angle = work.Has(BlockWork::kFrameAngle) ? work.frame_angle : machine.rotation_default_angle;
+      const bool adds = machine.rotation_angle_by_distance && channel_.modal.distance == ir::Distance::kIncremental;
+      const auto plane = static_cast<std::uint16_t>(AxisBit(axes.first) | AxisBit(axes.second));
+      const std::uint16_t mirrors = layers.mirrored & plane;
+      if (mirrors != 0 && mirrors != plane) angle = -angle;  // one mirrored axis exchanges the sense
+      if (adds && layers.rotates) angle += layers.angle;
+      layers.rotates = true;
+      layers.rotation_axis = axes.normal;
+      layers.rotation_center[axes.first] = center[0];
+      layers.rotation_center[axes.second] = center[1];
+      layers.rotation_center[axes.normal] = 0;
+      layers.angle = angle;
+      break;
+    }
+    case FrameOp::kRotateEnd:
+      layers.rotates = false;
+      break;
+    case FrameOp::kScaleAbout:
+      for (std::uint8_t axis = 0; axis < 3; ++axis) {
+        double factor = (work.factors & 1U) != 0 ? work.factor[0] : 1;
+        if ((work.factors >> (axis + 1U) & 1U) != 0) factor = work.factor[axis + 1];
+        if (factor == 0 || std::fabs(factor) >= 10000) return session_.Alarm(ir::AlarmClass::kRange, "scale factor");
+        layers.factor[axis] = factor;
+        // An axis that keeps its size needs no centre.
+        layers.scale_center[axis] = 0;
+        if (factor != 1 && (machine.axes & AxisBit(axis)) != 0 && !LayerCenter(work, axis, layers.scale_center[axis]))
+          return;
+      }
+      layers.scales = true;
+      break;
+    case FrameOp::kScaleEnd:
+      layers.scales = false;
+      break;
+    case FrameOp::kMirrorAbout:
+      for (std::uint8_t axis = 0; axis < ir::kMaxAxes; ++axis) {
+        if ((work.axes & AxisBit(axis)) == 0) continue;
+        layers.mirrored &= static_cast<std::uint16_t>(~AxisBit(axis));
+        double at = 0;
+        if (!LayerCenter(work, axis, at)) return;
+        layers.mirrored |= AxisBit(axis);
+        layers.mirror_at[axis] = at;
+      }
+      break;
+    case FrameOp::kMirrorEnd:
+      layers.mirrored &= static_cast<std::uint16_t>(~work.axes);
+      break;
+    default:
+      break;
+  }
+  MakeFrame();
+  FrameChanged();
+}
+
+void Kinematics::MakeFrame() {
+  const FrameLayers& layers = channel_.layers;
+  Frame& frame = channel_.frame;
+  frame.Reset();
+  for (std::uint8_t axis = 0; axis < ir::kMaxAxes; ++axis) {
+    const double shift = layers.shift[axis] + layers.preset[axis];
+    if (shift != 0) frame.AddShift(axis, shift);
+  }
+  if (layers.rotates) {
+    for (std::uint8_t axis = 0; axis < 3; ++axis) frame.AddShift(axis, layers.rotation_center[axis]);
+    frame.AddRotation(layers.rotation_axis, layers.angle);
+    for (std::uint8_t axis = 0; axis < 3; ++axis) frame.AddShift(axis, -layers.rotation_center[axis]);
+  }
+  if (layers.scales) {
+    for (std::uint8_t axis = 0; axis < 3; ++axis) {
+      frame.AddShift(axis, layers.scale_center[axis]);
+      frame.AddScale(axis, layers.factor[axis]);
+      frame.AddShift(axis, -layers.scale_center[axis]);
+    }
+  }
+  for (std::uint8_t axis = 0; axis < ir::kMaxAxes; ++axis) {
+    if ((layers.mirrored & AxisBit(axis)) == 0) continue;
+    frame.AddShift(axis, layers.mirror_at[axis]);
+    frame.AddMirror(axis);
+    frame.AddShift(axis, -layers.mirror_at[axis]);
+  }
+}
+
 /// No axis moves when the frame changes: the same point gets new workpiece coordinates.
 void Kinematics::FrameChanged() {
   if (!channel_.frame.Invertible()) return session_.Alarm(ir::AlarmClass::kRange, "scale factor 0");
@@ -112,7 +243,9 @@ void Kinematics::SetPole(const BlockWork& work) {
 /// The present position gets new values: the zero point moves. Where the position is unknown the values are taken as
 /// they are.
 void Kinematics::Preset(const BlockWork& work) {
-  if (!channel_.frame.IsDiagonal()) return session_.Refuse(diag::Code::kCannotRun, "new axis values under a rotation");
+  if (!channel_.frame.IsDiagonal() || channel_.layers.scales || channel_.layers.mirrored != 0) {
+    return session_.Refuse(diag::Code::kCannotRun, "new axis values under a rotation, scale or mirror");
+  }
   for (std::uint8_t axis = 0; axis < ir::kMaxAxes; ++axis) {
     const std::uint16_t bit = AxisBit(axis);
     if ((work.axes & bit) == 0) continue;
@@ -121,12 +254,19 @@ void Kinematics::Preset(const BlockWork& work) {
       if (Unknown(channel_.modal.units == ir::Units::kUnknown, "the unit of lengths")) return;
       value *= LengthFactor();
     }
-    if (axis == session_.machine.transverse_axis && TransverseInDiameter(ir::ValueMode::kAbsolute, false)) value /= 2;
+    if ((work.scaled_axes & bit) != 0) value *= Increment(ir::IsRotary(axis));
+    const bool shifts = work.axis_mode[axis] == ir::ValueMode::kIncremental;  // U W: by an amount (fanuc-8.4)
+    if (axis == session_.machine.transverse_axis && TransverseInDiameter(ir::ValueMode::kAbsolute, shifts)) value /= 2;
+    if (shifts) {
+      if (!Known(axis, "increment")) return;
+      value += channel_.work[axis];
+    }
     if ((channel_.base_known & bit) == 0) {
       channel_.base[axis] = channel_.frame.Factor(axis) * value + channel_.frame.Shift(axis);
       channel_.base_known |= bit;
     }
     channel_.frame.Preset(axis, value, channel_.base[axis]);
+    channel_.layers.preset[axis] = channel_.frame.Shift(axis) - channel_.layers.shift[axis];
   }
   FrameChanged();
 }

@@ -58,6 +58,9 @@ void Runner::Gather(const ir::Block& block) {
       case WordOp::kComputedM:
         GatherComputed(word, evaluator_.ToNumber(value), session_.machine.m_codes);
         break;
+      case WordOp::kDataSetting:
+        DataSetting(word.Extra<ir::CallId>());
+        break;
       case WordOp::kVerbatim:
         session_.Refuse(diag::Code::kRefusedBlock);
         break;
@@ -98,6 +101,8 @@ void Runner::Collect(const Word& word, const Value& value) {
   const auto put = [&](double& place, std::uint32_t bit) {
     place = number();
     work_.has |= bit;
+    if ((word.flags & Word::kIncrements) != 0) work_.scaled |= bit;
+    if ((word.flags & Word::kRoundsValue) != 0) work_.rounded_words |= bit;
   };
   switch (word.op) {
     case WordOp::kAxis:
@@ -119,12 +124,16 @@ void Runner::Collect(const Word& word, const Value& value) {
       work_.axis[axis] = number();
       work_.axis_mode[axis] = word.mode;
       if ((word.flags & Word::kRoundsValue) != 0) work_.rounded |= bit;
+      if ((word.flags & Word::kIncrements) != 0) work_.scaled_axes |= bit;
       return;
     }
     case WordOp::kCenter:
       work_.centers |= static_cast<std::uint8_t>(1U << word.index);
       work_.center[word.index] = number();
       work_.center_mode[word.index] = word.mode;
+      work_.center_written[word.index] = work_.center[word.index];
+      if ((word.flags & Word::kIncrements) != 0) work_.scaled_centers |= static_cast<std::uint8_t>(1U << word.index);
+      if ((word.flags & Word::kRoundsValue) != 0) work_.rounded_centers |= static_cast<std::uint8_t>(1U << word.index);
       return;
     case WordOp::kVia:
       work_.vias |= static_cast<std::uint8_t>(1U << word.index);
@@ -162,6 +171,20 @@ void Runner::Collect(const Word& word, const Value& value) {
     case WordOp::kDwellRevolutions:
       work_.dwell_revolutions = word.op == WordOp::kDwellRevolutions;
       return put(work_.dwell, BlockWork::kDwell);
+    case WordOp::kCycleValue: {
+      const std::uint32_t bit = 1U << word.index;
+      work_.cycle_fields |= bit;
+      work_.cycle_value[word.index] = number();
+      if ((word.flags & Word::kIncrements) != 0) work_.cycle_scaled |= bit;
+      return;
+    }
+    case WordOp::kFrameFactor: {
+      const auto bit = static_cast<std::uint8_t>(1U << word.index);
+      work_.factors |= bit;
+      work_.factor[word.index] = number();
+      if ((word.flags & Word::kIncrements) != 0) work_.scaled_factors |= bit;
+      return;
+    }
     case WordOp::kMachineCoords:
       work_.has |= BlockWork::kMachineCoords;
       return;

@@ -22,13 +22,15 @@ class Kinematics {
   /// A modal word takes effect. `extension`: of a work offset.
   void Set(const ir::Word& word, double extension, BlockWork& work);
   /// After all settings of the block: feed, frame words, compensation as traces show it.
-  void FinishSettings(const BlockWork& work);
+  void FinishSettings(BlockWork& work);
   /// The motion of the block. Returns true if an axis moved along a path.
   bool Move(const BlockWork& work);
   /// End of the run: nothing may wait for another element.
   void Finish();
   /// The run ends in an alarm.
   void Abandon() { contour_.Abandon(); }
+  /// Value of one least increment in the units in force, for numbers without decimal point.
+  [[nodiscard]] double Increment(bool rotary) const;
   /// Puts modal state and frame back (end of a program that saves them).
   void Restore(const ir::ModalState& modal, const Frame& frame);
 
@@ -51,15 +53,21 @@ class Kinematics {
 
   // frames.cc
   void ApplyFrame(const BlockWork& work);
+  void ApplyLayer(const BlockWork& work);
+  bool LayerCenter(const BlockWork& work, std::uint8_t axis, double& center);
+  void MakeFrame();
   void FrameChanged();
   void SetPole(const BlockWork& work);
   void Preset(const BlockWork& work);
 
   // motion.cc
   bool MoveByMode(const BlockWork& work);
+  bool NoCircleWords(const BlockWork& work);
   bool ResolveTargets(const BlockWork& work);
   bool Target(const BlockWork& work, std::uint8_t axis);
   bool ResolvePolar(const BlockWork& work);
+  bool ResolvePolarWords(const BlockWork& work);
+  void Scale(BlockWork& work);
   bool ResolveAngle(const BlockWork& work);
   void Adopt();  // target_ becomes the position
   bool Known(std::uint8_t axis, std::string_view why);
@@ -78,8 +86,21 @@ class Kinematics {
   bool Center(const BlockWork& work, const PlaneAxes& axes, Point& center);
   double CenterCoordinate(std::uint8_t axis, double value, ir::ValueMode mode) const;
   bool ArcTrouble(const Arc& arc);
+  void ScaledArc(const BlockWork& work, const PlaneAxes& axes, const Arc& programmed);
   void SendArc(const BlockWork& work, ir::Plane base_plane, Point base_center, bool clockwise, double radius,
                bool full);
+
+  // cycles.cc
+  void BeginCycle(const BlockWork& work);
+  bool CycleMove(const BlockWork& work);
+  bool Drill(const BlockWork& work);
+  void DrillHole(std::uint8_t axis, bool lathe);
+  bool StoreHole(const BlockWork& work, std::uint8_t axis, bool lathe);
+  bool TurningCycle(const BlockWork& work);
+  void Go(std::uint16_t axes, const double* targets, EventKind kind);
+  void GoTo(std::uint8_t axis, double target, EventKind kind);
+  void Pause(double seconds);
+  void Turn(ir::SpindleState state);
 
   // special_moves.cc
   bool Thread(const BlockWork& work, ir::Motion motion);

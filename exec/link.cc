@@ -22,6 +22,8 @@ std::uint32_t Elements(const ir::Variable& variable) {
   return static_cast<std::uint32_t>(std::min(count, kMostElements + 1));
 }
 
+bool UsesTargets(const ir::Call& call) { return call.form == ir::CallForm::kBlockRange || call.from_block; }
+
 std::uint32_t SaturatingAdd(std::uint32_t a, std::uint32_t b) { return a > kNowhere / 2 - b ? kNowhere / 2 : a + b; }
 
 }  // namespace
@@ -191,9 +193,7 @@ void Linked::IndexTargets() {
             break;
           case ir::WordOp::kCall:
           case ir::WordOp::kModalCall:
-            if (word.extra != ir::CallId::kNone &&
-                module.calls[word.Extra<ir::CallId>()].form == ir::CallForm::kBlockRange)
-              all = true;
+            if (word.extra != ir::CallId::kNone && UsesTargets(module.calls[word.Extra<ir::CallId>()])) all = true;
             break;
           default:
             break;

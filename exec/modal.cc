@@ -3,6 +3,7 @@
 
 #include "exec/evaluator.h"
 #include "exec/kinematics.h"
+#include "ir/ops/arithmetic.h"
 
 namespace ncport::exec {
 
@@ -40,6 +41,7 @@ void Kinematics::Set(const ir::Word& word, double extension, BlockWork& work) {
         work.one_shot = motion;
       } else {
         modal.motion = motion;
+        channel_.cycle = {};  // a word of motion ends a cycle and what is stored for it (fanuc-8.7)
       }
       work.has |= BlockWork::kMotionWord;
       break;
@@ -75,6 +77,13 @@ void Kinematics::Set(const ir::Word& word, double extension, BlockWork& work) {
       break;
     case WordOp::kPathMode:
       SetPath(static_cast<ir::PathMode>(word.index));
+      break;
+    case WordOp::kPolarMode:
+      channel_.polar_words = word.index != 0;
+      break;
+    case WordOp::kCycle:
+      work.cycle = static_cast<ir::Cycle>(word.index);
+      work.has |= BlockWork::kCycleWord;
       break;
     case WordOp::kReturnLevel:
       modal.return_level = static_cast<ir::ReturnLevel>(word.index);
@@ -182,7 +191,58 @@ void Kinematics::SetFeed(const BlockWork& work) {
   channel_.feed_known = true;
 }
 
-void Kinematics::FinishSettings(const BlockWork& work) {
+double Kinematics::Increment(bool rotary) const {
+  // 0.001 mm and degrees, 0.0001 inch: the unit of the words themselves.
+  return rotary || LengthFactor() == 1 ? session_.machine.increment : session_.machine.increment / 10;
+}
+
+/// Numbers without decimal point count what the modes in force say; computed values are rounded on their way to the
+/// address.
+void Kinematics::Scale(BlockWork& work) {
+  const ir::Machine& machine = session_.machine;
+  const double length = Increment(false);
+  const bool inch = LengthFactor() != 1;
+  const auto round = [&](double& value) {
+    if (machine.word_error == ir::WordError::kNone) return;
+    value = machine.word_error == ir::WordError::kRound ? ir::ops::RoundToIncrement(value, length)
+                                                        : ir::ops::TruncateToIncrement(value, length);
+  };
+  if ((work.rounded_words & BlockWork::kRadius) != 0) round(work.radius);
+  for (int i = 0; i < 3; ++i) {
+    if ((work.rounded_centers >> i & 1U) != 0) round(work.center[i]);
+    if ((work.scaled_centers >> i & 1U) != 0) work.center[i] *= length;
+  }
+  if ((work.scaled & BlockWork::kRadius) != 0) work.radius *= length;
+  if ((work.scaled & BlockWork::kChamfer) != 0) work.chamfer *= length;
+  if ((work.scaled & BlockWork::kContourAngle) != 0) work.contour_angle *= machine.increment;
+  if ((work.scaled & BlockWork::kFrameAngle) != 0) work.frame_angle *= machine.increment;
+  if ((work.scaled & BlockWork::kStartAngle) != 0) work.start_angle *= 0.001;
+  if ((work.scaled & BlockWork::kDwell) != 0) work.dwell *= 0.001;
+  if ((work.scaled & BlockWork::kFeed) != 0) {
+    const ir::Motion motion = channel_.modal.motion;
+    const bool thread = motion == ir::Motion::kThread || motion == ir::Motion::kThreadIncreasing;
+    const bool revolution = thread || channel_.modal.feed_mode == ir::FeedMode::kPerRevolution;
+    const ir::NumberUnits& units = machine.units;
+    if (revolution) {
+      work.feed *= inch ? units.feed_per_revolution_inch : units.feed_per_revolution;
+    } else if (channel_.modal.feed_mode == ir::FeedMode::kPerMinute) {
+      work.feed *= inch ? units.feed_per_minute_inch : units.feed_per_minute;
+    }
+  }
+  for (int i = 0; i < 4; ++i) {
+    if ((work.scaled_factors >> i & 1U) != 0) work.factor[i] *= 0.001;
+  }
+  for (std::uint32_t rest = work.cycle_scaled; rest != 0; rest &= rest - 1) {
+    const auto field = static_cast<std::size_t>(__builtin_ctz(rest));
+    work.cycle_value[field] *= static_cast<ir::CycleField>(field) == ir::CycleField::kDwell ? 0.001 : length;
+  }
+}
+
+void Kinematics::FinishSettings(BlockWork& work) {
+  const bool written = work.scaled != 0 || work.rounded_words != 0 || work.scaled_centers != 0 ||
+                       work.rounded_centers != 0 || work.cycle_scaled != 0 || work.scaled_factors != 0;
+  if (written) Scale(work);
+  if (work.Has(BlockWork::kCycleWord)) BeginCycle(work);
   if (work.Has(BlockWork::kFeed)) SetFeed(work);
   if (work.Has(BlockWork::kFrame)) ApplyFrame(work);
   if (work.Has(BlockWork::kRoundModal)) channel_.modal_rounding = work.round_modal * LengthFactor();

@@ -39,10 +39,24 @@ bool Kinematics::Move(const BlockWork& work) {
   const bool round = work.centers != 0 || work.Has(BlockWork::kRadius | BlockWork::kOpening);
   const Motion motion = work.Has(BlockWork::kOneShotMotion) ? work.one_shot : channel_.modal.motion;
   const bool circle = motion >= Motion::kArcCw && motion <= Motion::kArcTangent && (round || work.vias != 0);
-  if (work.axes == 0 && !polar && !circle && !work.Has(BlockWork::kContourAngle | BlockWork::kReference)) return false;
+  const bool in_cycle = channel_.cycle.cycle != ir::Cycle::kNone && (round || work.cycle_fields != 0);
+  if (work.axes == 0 && work.cycle_fields == 0 && !in_cycle && !polar && !circle &&
+      !work.Has(BlockWork::kContourAngle | BlockWork::kReference))
+    return false;
 
   std::memcpy(from_, channel_.base, sizeof from_);
   from_known_ = channel_.base_known;
+  if (channel_.cycle.cycle != ir::Cycle::kNone && !work.Has(BlockWork::kMachineCoords)) {
+    if (work.Has(BlockWork::kReference)) {
+      session_.Alarm(ir::AlarmClass::kOther, "reference move while a cycle is active");  // PS0044
+      return false;
+    }
+    return CycleMove(work);
+  }
+  if (work.cycle_fields != 0) {
+    session_.Refuse(diag::Code::kCannotRun, "a word of a cycle while no cycle is in force");
+    return false;
+  }
   if (work.Has(BlockWork::kReference)) {
     ReferenceMove(work);
     return false;
@@ -72,10 +86,12 @@ bool Kinematics::MoveByMode(const BlockWork& work) {
       session_.Refuse(diag::Code::kCannotRun, "axis words while no kind of motion is in force");
       return false;
     case Motion::kRapid:
+      if (!NoCircleWords(work)) return false;
       Line(work, EventKind::kRapid);
       return true;
     case Motion::kLinear:
     case Motion::kTapFloating:
+      if (!NoCircleWords(work)) return false;
       if (work.Has(BlockWork::kContourAngle) && !ResolveAngle(work)) return open_.active;
       Line(work, EventKind::kLine);
       return true;
@@ -99,6 +115,14 @@ bool Kinematics::MoveByMode(const BlockWork& work) {
     case Motion::kTapOut:
       return Thread(work, motion);
   }
+  return false;
+}
+
+/// Centre and radius words beside a straight line mean something else on some controls (chamfers of lathes): never
+/// dropped.
+bool Kinematics::NoCircleWords(const BlockWork& work) {
+  if (work.centers == 0 && !work.Has(BlockWork::kRadius)) return true;
+  session_.Refuse(diag::Code::kCannotRun, "centre or radius words beside a straight move");
   return false;
 }
 
@@ -144,6 +168,7 @@ bool Kinematics::Target(const BlockWork& work, std::uint8_t axis) {
   if (!rotary && Unknown(modal.units == ir::Units::kUnknown, "the unit of lengths")) return false;
   const double factor = rotary ? 1 : LengthFactor();
 
+  if ((work.scaled_axes & AxisBit(axis)) != 0) value *= Increment(rotary);
   if ((work.rounded & AxisBit(axis)) != 0 && session_.machine.word_error != ir::WordError::kNone) {
     const double increment =
         factor == 1 ? session_.machine.increment : session_.machine.increment / 10;  // 0.001 mm, 0.0001 inch
@@ -172,6 +197,7 @@ bool Kinematics::ResolveTargets(const BlockWork& work) {
   for (std::uint16_t rest = work.axes; rest != 0; rest &= static_cast<std::uint16_t>(rest - 1)) {
     if (!Target(work, static_cast<std::uint8_t>(__builtin_ctz(rest)))) return false;
   }
+  if (channel_.polar_words) return ResolvePolarWords(work);
   return !work.Has(BlockWork::kPolarRadius | BlockWork::kPolarAngle) || ResolvePolar(work);
 }
 
@@ -211,6 +237,38 @@ bool Kinematics::ResolvePolar(const BlockWork& work) {
   target_[axes.first] = channel_.pole.u + channel_.polar_radius * ir::ops::Cos(channel_.polar_angle);
   target_[axes.second] = channel_.pole.v + channel_.polar_radius * ir::ops::Sin(channel_.polar_angle);
   moved_ |= plane_bits;
+  return true;
+}
+
+/// Words of the plane as radius and angle while that mode is on (fanuc-8.5): the pole is the zero of the work system;
+/// an incremental radius has its pole at the present position. What is missing stays as seen from the zero.
+bool Kinematics::ResolvePolarWords(const BlockWork& work) {
+  if (Unknown(channel_.modal.plane == ir::Plane::kUnknown, "the plane")) return false;
+  if (Unknown(channel_.modal.units == ir::Units::kUnknown, "the unit of lengths")) return false;
+  const PlaneAxes axes = AxesOf(channel_.modal.plane);
+  const auto has = [&](std::uint8_t axis) { return (work.axes & AxisBit(axis)) != 0; };
+  if (!has(axes.first) && !has(axes.second)) return true;
+  const auto incremental = [&](std::uint8_t axis) {
+    const ValueMode mode = work.axis_mode[axis];
+    return mode == ValueMode::kModal ? channel_.modal.distance == ir::Distance::kIncremental : IsIncremental(mode);
+  };
+  const auto value = [&](std::uint8_t axis, bool angle) {
+    const double scaled =
+        (work.scaled_axes & AxisBit(axis)) != 0 ? work.axis[axis] * Increment(angle) : work.axis[axis];
+    return angle ? scaled : scaled * LengthFactor();
+  };
+  const bool from_here = has(axes.first) && incremental(axes.first);
+  const bool needs_position = from_here || !has(axes.first) || !has(axes.second) || incremental(axes.second);
+  if (needs_position && (!Known(axes.first, "polar words") || !Known(axes.second, "polar words"))) return false;
+  const Point here = needs_position ? Point{channel_.work[axes.first], channel_.work[axes.second]} : Point{};
+  const double radius = has(axes.first) ? value(axes.first, false) : std::hypot(here.u, here.v);
+  double angle = 0;
+  if (!has(axes.second) || incremental(axes.second)) angle = ir::ops::Atan2(here.v, here.u);
+  if (has(axes.second)) angle += value(axes.second, true);
+  const Point pole = from_here ? here : Point{};
+  target_[axes.first] = pole.u + radius * ir::ops::Cos(angle);
+  target_[axes.second] = pole.v + radius * ir::ops::Sin(angle);
+  moved_ |= static_cast<std::uint16_t>(AxisBit(axes.first) | AxisBit(axes.second));
   return true;
 }
 

@@ -142,12 +142,12 @@ void Runner::ExecuteBlock(std::uint32_t index, std::uint16_t use) {
     computed_.clear();
     Gather(block);
     if (session_.halted) return;
-    if ((use & kUseSetting) != 0 || work_.has != 0) Settings(block);
+    if ((use & kUseSetting) != 0 || work_.has != 0 || work_.centers != 0 || work_.cycle_fields != 0) Settings(block);
     if (session_.halted) return;
     if ((use & kUseBefore) != 0) Actions(block, Phase::kBefore);
     if (session_.halted) return;
     session_.word = nullptr;
-    if (work_.axes != 0 || work_.centers != 0 || work_.has != 0) {
+    if (work_.axes != 0 || work_.centers != 0 || work_.has != 0 || work_.cycle_fields != 0) {
       moved = kinematics_.Move(work_);
       if (session_.halted) return;
     }

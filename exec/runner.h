@@ -84,6 +84,7 @@ class Runner {
   void Assign(const ir::Word& word, const Value& value);
   void AssignList(ir::AssignListId id);
   void Define(ir::VariableId id);
+  void DataSetting(ir::CallId id);
   void FillFrom(const Place& first, const ir::AssignList& list);
   void ApplyStartValues();
   void ReportVariables();

@@ -43,6 +43,22 @@ struct Session {
   std::string alarm_code;
   std::string alarm_text;
 
+  bool message_stop = false;  // a write asks for a message and a stop
+
+  /// Text of the first comment of the block: what alarms and messages of numbered variables show.
+  [[nodiscard]] std::string_view CommentText() const {
+    if (!block.Valid() || module.blocks[block].comments.Empty()) return {};
+    return module.View(module.comments[module.blocks[block].comments[0]].text);
+  }
+  /// The number that the control shows for alarm `number` of the program.
+  [[nodiscard]] std::uint32_t ShownAlarm(std::uint32_t number) const {
+    for (const ir::AlarmNumbers& range : machine.alarm_numbers) {
+      if (number >= range.first && number <= range.last)
+        return range.one ? range.shown : range.shown + number - range.first;
+    }
+    return number;
+  }
+
   /// The program ends in an alarm of the control.
   void Alarm(ir::AlarmClass kind, std::string_view text) {
     if (halted) return;

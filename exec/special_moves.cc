@@ -114,9 +114,17 @@ void Kinematics::ReferenceMove(const BlockWork& work) {
 
 void Kinematics::Dwell(const BlockWork& work) {
   if (!(work.dwell >= 0)) return session_.Alarm(ir::AlarmClass::kRange, "dwell below 0");
+  bool revolutions = work.dwell_revolutions;
+  if (channel_.modal.feed_mode == ir::FeedMode::kPerRevolution && !revolutions) {
+    if (session_.machine.dwell_per_revolution == ir::DwellUnit::kUnknown) {
+      return session_.Refuse(diag::Code::kCannotRun,
+                             "a dwell under feed per revolution: the profile leaves open whether it counts seconds");
+    }
+    revolutions = session_.machine.dwell_per_revolution == ir::DwellUnit::kRevolutions;
+  }
   Event& event = emitter_.Begin(EventKind::kDwell);
   event.value = work.dwell;
-  event.per_revolution = work.dwell_revolutions;
+  event.per_revolution = revolutions;
   emitter_.Send(event);
 }
 

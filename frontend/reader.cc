@@ -2,6 +2,8 @@
 
 #include <unordered_set>
 
+#include "frontend/fanuc/reader.h"
+#include "frontend/fanuc/resolve.h"
 #include "frontend/iso/reader.h"
 #include "frontend/sinumerik/reader.h"
 #include "frontend/sinumerik/resolve.h"
@@ -18,6 +20,7 @@ Status ReadFile(const SourceFiles& files, FileId file, const dialects::Profile& 
     case dialects::Language::kIso:
       return iso::ReadFile(files, file, profile, options, module, sink);
     case dialects::Language::kFanuc:
+      return fanuc::ReadFile(files, file, profile, options, module, sink);
     case dialects::Language::kNum:
     case dialects::Language::kLinuxCnc:
       break;
@@ -49,6 +52,8 @@ void ResolveNames(SourceFiles& files, ir::Module& module, const dialects::Profil
       sinumerik::ResolveNames(files, module, profile, sink);
       return;
     case dialects::Language::kFanuc:
+      fanuc::ResolveNames(module, sink);
+      return;
     case dialects::Language::kNum:
     case dialects::Language::kLinuxCnc:
     case dialects::Language::kIso:

@@ -40,6 +40,10 @@ std::string_view IndexName(IndexKind kind, std::uint8_t index) {
       return NameOf(static_cast<FrameOp>(index));
     case IndexKind::kAlarm:
       return NameOf(static_cast<AlarmKind>(index));
+    case IndexKind::kCycle:
+      return NameOf(static_cast<Cycle>(index));
+    case IndexKind::kCycleField:
+      return NameOf(static_cast<CycleField>(index));
     case IndexKind::kReturn:
       return NameOf(static_cast<ReturnKind>(index));
     case IndexKind::kMark:
@@ -231,6 +235,7 @@ void DumpWriter::Call(CallId id) {
   Name(call.name);
   if (call.has_brackets) Put(" brackets");
   if (!call.new_level) Put(" same-level");
+  if (call.from_block) Put(" from-block");
   if (call.program.Valid()) Put(" calls "), ProgramRef(call.program);
   Optional(" by ", call.name_expr);
   if (!call.args.Empty()) {
@@ -244,6 +249,7 @@ void DumpWriter::Call(CallId id) {
       const Arg& arg = module_.args[call.args[i]];
       Number(arg.position);
       if (arg.letter != 0) Put(' '), BareOrQuoted(std::string_view{&arg.letter, 1});
+      if (arg.increments) Put(" increments");
       Put(": ");
       Expr(arg.value);
     }

@@ -60,6 +60,35 @@ struct GroupCode {
   double code = 0;
 };
 
+/// What numbers of the program's own alarms the control shows: `first` to `last` as `shown` and up, or all of them as `shown`.
+struct AlarmNumbers {
+  std::uint32_t first = 0, last = 0;
+  std::uint32_t shown = 0;
+  bool one = false;
+};
+
+/// What happens when a program writes a numbered variable.
+enum class WriteEffect : std::uint8_t { kNone, kAlarm /* ends the run */, kMessageStop };
+
+/// Numbered variables that stand for something of the machine, for numbers that are known only at run time.
+struct NumberedSystem {
+  std::uint32_t first = 0, last = 0;
+  std::uint32_t base = 0;        // index in its kind = number - base
+  SystemKind kind = SystemKind::kEnvironment;
+  bool readable = true;
+  bool writable = false;
+  WriteEffect effect = WriteEffect::kNone;
+};
+
+/// What a dwell counts while the feed is per revolution.
+enum class DwellUnit : std::uint8_t { kSeconds, kRevolutions, kUnknown };
+
+/// Values of numbers without decimal point (Word::kIncrements), in the unit that the program uses.
+struct NumberUnits {
+  double feed_per_minute = 1, feed_per_minute_inch = 1;
+  double feed_per_revolution = 1, feed_per_revolution_inch = 1;
+};
+
 /// Alarm numbers that only show a message; AlarmKind::kByNumber asks for them at run time.
 struct AlarmRange {
   std::uint32_t first = 0, last = 0;
@@ -122,6 +151,24 @@ struct Machine {
   bool surface_speed_per_revolution = true;  // constant surface speed switches the feed to per revolution
   ModalCallTrigger modal_call_trigger = ModalCallTrigger::kMotionBlocks;
   bool tool_activates_edge = false;          // a tool call without edge selects edge 1
+
+  NumberUnits units;
+  DwellUnit dwell_per_revolution = DwellUnit::kSeconds;  // G4 while the feed is per revolution
+
+  // Canned cycles.
+  double chip_back_off = 1;                  // mm; peck drilling with chip breaking
+  double peck_clearance = 1;                 // mm above the last depth where the feed begins again
+  bool cycle_level_from_initial = false;     // the level of hole cycles is a distance from the initial level (lathes)
+  double rotation_default_angle = 0;         // of a rotation about a centre without angle, degrees
+  bool rotation_angle_by_distance = false;   // its angle adds under incremental distance
+  double thread_run_out = 0;                 // of threading cycles, in leads
+
+  // Programs and variables by number.
+  std::string program_prefix;                // name of program 1234: prefix + 1234
+  std::vector<NumberedSystem> numbered_systems;
+  std::vector<std::uint8_t> position_axes;   // axis of position variable 1, 2 ...
+  std::vector<AlarmNumbers> alarm_numbers;
+  bool fixed_text_pads = false;              // FixedText: blanks for leading zeros and for the missing sign
 
   // Words that exist only at run time.
   std::vector<CodeMeaning> g_codes;          // sorted by tenths

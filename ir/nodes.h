@@ -82,6 +82,12 @@ enum class FrameOp : std::uint8_t {
   kTranslate, kRotate, kScale, kMirror,          // absolute: replace the whole programmable frame
   kAddTranslate, kAddRotate, kAddScale, kAddMirror,
   kReset,
+  // Layers that stand beside each other, in this order from the outside: shift, rotation, scale, mirror. Each word replaces its
+  // own layer. Axis words are the shift, or the centre; a missing centre is the present position.
+  kLocalShift,                                   // named axes only; 0 takes it back
+  kRotateAbout, kRotateEnd,                      // in the plane
+  kScaleAbout, kScaleEnd,                        // factors: FrameFactor words
+  kMirrorAbout, kMirrorEnd,                      // named axes
 };
 /// kByNumber: Machine::shown_alarms decides when the number is known.
 enum class AlarmKind : std::uint8_t { kStops, kShows, kByNumber };
@@ -148,6 +154,8 @@ struct Word {
   static constexpr std::uint8_t kRoundsValue = 4;     // the value passes to the address through Machine::word_error
   static constexpr std::uint8_t kAdded = 8;           // made by a pass, stands in the report
   static constexpr std::uint8_t kFreezes = 16;        // SpeedMode: the present speed stays in force (G97)
+  static constexpr std::uint8_t kIncrements = 32;     // the value counts units that the machine's increment and the modes in force
+                                                      // decide (a number without decimal point, milliseconds)
 
   /// Typed view of `extra`.
   template <class IdType>
@@ -298,6 +306,7 @@ struct Arg {
   ExprId value;
   std::uint16_t position = 0;
   char letter = 0;
+  bool increments = false;       // as Word::kIncrements
 };
 struct Call {
   CallForm form = CallForm::kName;
@@ -308,7 +317,8 @@ struct Call {
   ExprId name_expr;              // kText
   IdRange<ArgId> args;
   ExprId passes;                 // none = 1
-  Target from, to;               // kBlockRange
+  Target from, to;               // kBlockRange; kName with `from_block`: runs from `from` on
+  bool from_block = false;       // no name: a block of the same program
 };
 /// `single`: only the block of `first`. `has_last`: up to `last`. Else up to the block before the RepeatPart word, or up
 /// to the first block labelled `last.label` (an end label of the language) if one stands before that.

@@ -77,6 +77,10 @@ std::uint8_t DumpParser::Index(WordOp op) {
       return raw(Value<FrameOp>("a frame operation"));
     case IndexKind::kAlarm:
       return raw(Value<AlarmKind>("a kind of alarm"));
+    case IndexKind::kCycle:
+      return raw(Value<Cycle>("a cycle"));
+    case IndexKind::kCycleField:
+      return raw(Value<CycleField>("a word of a cycle"));
     case IndexKind::kReturn:
       return raw(Value<ReturnKind>("a kind of return"));
     case IndexKind::kAxis:
@@ -230,6 +234,7 @@ CallId DumpParser::CallText() {
   call.name = Name();
   call.has_brackets = scan_.TakeKeyword("brackets");
   call.new_level = !scan_.TakeKeyword("same-level");
+  call.from_block = scan_.TakeKeyword("from-block");
   if (scan_.TakeKeyword("calls")) call.program = ProgramRef();
   call.name_expr = Optional("by");
   call.args.begin = static_cast<std::uint32_t>(module_.args.Size());
@@ -242,6 +247,7 @@ CallId DumpParser::CallText() {
         if (letter.size() != 1) scan_.Fail("a letter");
         if (!letter.empty()) arg.letter = letter.front();
       }
+      arg.increments = scan_.TakeKeyword("increments");
       scan_.Need(":");
       arg.value = MaybeExpr();
       module_.args.Add(arg);

@@ -415,7 +415,7 @@ class Verifier {
 
   bool WordOk(const Word& word, bool refused) {
     const bool ok = Enumerator(word.op, "word") && Enumerator(word.phase, "phase") && Enumerator(word.mode, "mode") &&
-                    Check((word.flags & 0xE0U) == 0, "unknown flag") &&
+                    Check((word.flags & 0xC0U) == 0, "unknown flag") &&
                     Check(word.spelling < m_.spellings.size(), "unknown spelling") && Operand(word.value, "value");
     if (!ok) return false;
     const ValueUse use = ValueUseOf(word.op);
@@ -465,6 +465,10 @@ class Verifier {
         return Enumerator(static_cast<FrameOp>(index), "frame operation");
       case IndexKind::kAlarm:
         return Enumerator(static_cast<AlarmKind>(index), "kind of alarm");
+      case IndexKind::kCycle:
+        return Enumerator(static_cast<Cycle>(index), "cycle");
+      case IndexKind::kCycleField:
+        return Enumerator(static_cast<CycleField>(index), "word of a cycle");
       case IndexKind::kReturn:
         return Enumerator(static_cast<ReturnKind>(index), "kind of return");
       case IndexKind::kMark:

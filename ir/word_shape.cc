@@ -45,6 +45,12 @@ WordShape ShapeOf(WordOp op) {
       return {IndexKind::kPole};
     case WordOp::kFrame:
       return {IndexKind::kFrame};
+    case WordOp::kCycle:
+      return {IndexKind::kCycle};
+    case WordOp::kCycleValue:
+      return {IndexKind::kCycleField};
+    case WordOp::kDataSetting:
+      return {IndexKind::kNone, ExtraKind::kCall};
     case WordOp::kSpindle:
       return {IndexKind::kNumber, ExtraKind::kSpindleState};
     case WordOp::kAlarm:
@@ -82,6 +88,8 @@ WordShape ShapeOf(WordOp op) {
     case WordOp::kVerbatim:
       return {IndexKind::kMark, ExtraKind::kString};
 
+    case WordOp::kPolarMode:
+    case WordOp::kFrameFactor:
     case WordOp::kComputedM:
     case WordOp::kSpeed:
     case WordOp::kSpeedLimit:
@@ -94,6 +102,8 @@ WordShape ShapeOf(WordOp op) {
     case WordOp::kSkipRest:
     case WordOp::kWhile:
     case WordOp::kEndWhile:
+    case WordOp::kLoop:
+    case WordOp::kEndLoop:
       return {IndexKind::kNumber};
 
     case WordOp::kExactOnce:
@@ -124,8 +134,6 @@ WordShape ShapeOf(WordOp op) {
     case WordOp::kIf:
     case WordOp::kElse:
     case WordOp::kEndIf:
-    case WordOp::kLoop:
-    case WordOp::kEndLoop:
     case WordOp::kRepeat:
     case WordOp::kUntil:
     case WordOp::kEndFor:

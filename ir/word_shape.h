@@ -27,6 +27,8 @@ enum class IndexKind : std::uint8_t {
   kFrame,
   kAlarm,
   kReturn,
+  kCycle,
+  kCycleField,
   kMark,    // WordOp of a structure mark; 0 = none
   kNumber,  // spindle, extension, skip level, DO number; 0 = none
 };

@@ -1,5 +1,6 @@
 #include "dialects/fanuc/machine.h"
 
+#include "dialects/fanuc/system_variables.h"
 #include "dialects/fanuc/words.h"
 #include "dialects/machine_parts.h"
 
@@ -35,6 +36,45 @@ void SetGroups(const CodeTable& table, ir::Machine& machine) {
   }
 }
 
+/// What numbers without a point count (fanuc-2.2, mazak-lathe-7).
+void SetUnits(System system, ir::Machine& machine) {
+  const NumberUnit minute = UnitOf(WordContext::kFeedPerMinute, system);
+  const NumberUnit revolution = UnitOf(WordContext::kFeedPerRevolution, system);
+  machine.units.feed_per_minute = minute.metric;
+  machine.units.feed_per_minute_inch = minute.inch;
+  machine.units.feed_per_revolution = revolution.metric;
+  machine.units.feed_per_revolution_inch = revolution.inch;
+}
+
+/// Variables that stand for something of the machine, for numbers that programs compute (fanuc-9).
+void SetNumberedSystems(const Profile& profile, ir::Machine& machine) {
+  for (const SystemRange& range : SystemVariables()) {
+    if (FindSystemVariable(profile, range.first) != &range) continue;
+    const ir::WriteEffect effect = range.control == Control::kAlarm         ? ir::WriteEffect::kAlarm
+                                   : range.control == Control::kMessageStop ? ir::WriteEffect::kMessageStop
+                                                                            : ir::WriteEffect::kNone;
+    machine.numbered_systems.push_back(
+        {range.first, range.last, range.base, range.kind, range.readable, range.writable, effect});
+  }
+  constexpr std::string_view kLetters = "XYZABCUVW";
+  for (const std::string& axis : profile.axes) {
+    const std::size_t letter = axis.size() == 1 ? kLetters.find(axis[0]) : std::string_view::npos;
+    if (letter != std::string_view::npos) machine.position_axes.push_back(static_cast<std::uint8_t>(letter));
+  }
+}
+
+/// Which number an alarm of the program shows: 3000 + n, n itself with 6008#1 MCA, 1000 + n on Haas (fanuc-9.3, 13);
+/// Mazak has three ranges (mazak-lathe-6.5).
+void SetAlarmNumbers(const FanucSettings& settings, ir::Machine& machine) {
+  if (settings.variant.Is(Variant::kMazak)) {
+    machine.alarm_numbers = {{1, 10, 980, false}, {11, 20, 990, false}, {21, 0xFFFFFFFFU, 979, true}};
+  } else if (settings.variant.Is(Variant::kHaas)) {
+    machine.alarm_numbers = {{0, 999, 1000, false}};
+  } else if (!settings.alarm_number_as_written.Or(false)) {
+    machine.alarm_numbers = {{0, 0xFFFFFFFFU - 3000U, 3000, false}};
+  }
+}
+
 }  // namespace
 
 void FillMachine(const Profile& profile, ir::Machine& machine) {
@@ -59,10 +99,25 @@ void FillMachine(const Profile& profile, ir::Machine& machine) {
   machine.modal_call_keeps_locals = true;         // fanuc-7.4
   machine.modal_call_trigger = ir::ModalCallTrigger::kMotionBlocks;
   machine.tool_activates_edge = false;
+  // fanuc-8.1, mazak-lathe-2.6: by 3405#1 DWL, F92.2 a dwell counts revolutions.
+  machine.dwell_per_revolution = !settings.dwell.Known()                          ? ir::DwellUnit::kUnknown
+                                 : *settings.dwell == FanucSettings::Dwell::kTime ? ir::DwellUnit::kSeconds
+                                                                                  : ir::DwellUnit::kRevolutions;
+  machine.chip_back_off = settings.g73_back_off.Or(1);                             // fanuc-8.7, parameter 5114
+  machine.peck_clearance = settings.g83_clearance.Or(1);                           // 5115
+  machine.cycle_level_from_initial = machine.lathe;                                // fanuc-8.7: R is a distance
+  machine.rotation_default_angle = settings.rotation_default_angle.Or(0);          // fanuc-8.5, 5410
+  machine.rotation_angle_by_distance = settings.rotation_r_by_distance.Or(false);  // 5400#0
+  machine.thread_run_out = settings.thread_run_out.Or(0);                          // fanuc-8.8, 5130
+  machine.program_prefix = "O";
+  machine.fixed_text_pads = settings.print_leading_blanks.Or(false);  // fanuc-10, 6001#1
+  SetNumberedSystems(profile, machine);
+  SetAlarmNumbers(settings, machine);
   if (settings.variant.Is(Variant::kFanuc)) SetAlarms(kAlarms, machine);
   if (const std::optional<System> system = SystemOf(profile); system.has_value()) {
     SetComputedCodes(Codes(*system), machine);
     SetGroups(Codes(*system), machine);
+    SetUnits(*system, machine);
   }
 }
 

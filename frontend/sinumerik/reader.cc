@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "frontend/common/add_spaces.h"
 #include "frontend/common/chars.h"
 #include "frontend/common/line_error.h"
 #include "frontend/common/module_mark.h"
@@ -338,25 +339,6 @@ class Reader {
   Recipe uncached_;
   LineError error_;
 };
-
-void AddSpaces(const dialects::Profile& profile, ir::Module& module) {
-  for (const dialects::VariableSpace& space : profile.variables) {
-    bool there = false;
-    for (const ir::Space& known : module.spaces.All()) {
-      there |= module.View(known.name) == space.name && known.first == space.range.first;
-    }
-    if (there) continue;
-    ir::Space record;
-    record.name = module.strings.Intern(space.name);
-    record.first = space.range.first;
-    record.last = space.range.last;
-    record.type = space.type;
-    record.lifetime = space.lifetime;
-    record.visibility = space.visibility;
-    record.start = space.start;
-    module.spaces.Add(record);
-  }
-}
 
 }  // namespace
 

@@ -67,6 +67,10 @@ Number Apply(Function function, const double* args, std::size_t count, const Mac
       return Tan(x);
     case Function::kAsin:
       return Asin(x);
+    case Function::kAsinPositive: {
+      const Number angle = Asin(x);
+      return angle.Ok() && angle.value < 0 ? Ok(angle.value + 360.0) : angle;
+    }
     case Function::kAcos:
       return Acos(x);
     case Function::kAtan:

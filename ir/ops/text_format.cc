@@ -1,10 +1,13 @@
 // SPRINT.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <string_view>
 
+#include "base/number_text.h"
 #include "ir/ops/arithmetic.h"
 #include "ir/ops/text.h"
 
@@ -137,6 +140,25 @@ Error Format(TextBuffer& buffer, std::string_view format, std::span<const Format
     if (error != Error::kNone) return error;
   }
   return Error::kNone;
+}
+
+void AppendFixedText(TextBuffer& buffer, double value, int whole, int decimals, bool pads) {
+  // Rounded as decimals, halves away from zero: the number that stands there is what is cut.
+  TextBuffer digits;
+  AppendNumber(digits, std::fabs(value), 1, static_cast<std::uint8_t>(decimals), decimals > 0);
+  std::string_view text = digits.View();
+  const std::size_t point = std::min(text.find('.'), text.size());
+  bool zero = true;
+  for (const char c : text) zero = zero && (c == '0' || c == '.');
+  if (point > static_cast<std::size_t>(whole)) text.remove_prefix(point - static_cast<std::size_t>(whole));
+  const std::size_t kept = std::min(text.find('.'), text.size());
+  if (pads) {
+    buffer.Append(value < 0 && !zero ? '-' : ' ');
+    for (std::size_t i = kept; i < static_cast<std::size_t>(whole); ++i) buffer.Append(' ');
+  } else if (value < 0 && !zero) {
+    buffer.Append('-');
+  }
+  buffer.Append(text);
 }
 
 }  // namespace ncport::ir::ops

@@ -119,6 +119,7 @@ class ProgramRewrite {
       case WordOp::kCall:
       case WordOp::kModalCall:
       case WordOp::kWorkpiece:
+      case WordOp::kDataSetting:
         if (word.Extra<CallId>().Valid()) RewriteCall(word.Extra<CallId>());
         break;
       case WordOp::kRepeatPart: {

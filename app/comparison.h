@@ -1,5 +1,5 @@
-// Sets up the comparison of a program with its translation: reads the output back through the target's frontend, binds the
-// inputs of both sides, runs prove::Verify.
+// Sets up the comparison of a program with its translation: reads the output back through the target's frontend, binds
+// the inputs of both sides, runs prove::Verify.
 #pragma once
 
 #include <vector>
@@ -19,7 +19,8 @@ struct ComparisonSetup {
 /// Findings of reading the output back are bugs of the writer and are reported as such (NC7002).
 prove::Verification CompareTranslation(Context& context, const ProgramSet& source, const ir::Machine& source_machine,
                                        ir::ProgramId entry, const dialects::Profile& target,
-                                       const backends::Translation& translation, const std::vector<backends::OutputFile>& files,
-                                       const dialects::Config* config, const ComparisonSetup& setup, std::vector<prove::Input>& inputs);
+                                       const backends::Translation& translation,
+                                       const std::vector<backends::OutputFile>& files, const dialects::Config* config,
+                                       const ComparisonSetup& setup, std::vector<prove::Input>& inputs);
 
 }  // namespace ncport::app

@@ -334,6 +334,26 @@ int RunTranslate(const TranslateArguments& arguments) {
   return kUsage;
 }
 
+struct DiffArguments : Common, Running {
+  std::string from_a, from_b;
+  double tolerance = DiffOptions{}.tolerance;
+};
+
+int RunDiff(const DiffArguments& arguments) {
+  Session session(arguments);
+  if (!session.Read()) return kUsage;
+  if (session.Inputs().size() != 2) {
+    Say("diff compares two files");
+    return kUsage;
+  }
+  DiffOptions options;
+  session.Fill(options, arguments);
+  options.from_a = arguments.from_a;
+  options.from_b = arguments.from_b;
+  options.tolerance = arguments.tolerance;
+  return session.End(Diff(session.context, session.Inputs()[0], session.Inputs()[1], options));
+}
+
 int RunExplain(const std::string& code) {
   const std::string_view page = Explain(code);
   if (!page.empty()) return Print(page);
@@ -382,6 +402,15 @@ int Main(int argc, char** argv) {
   command->add_option("--seed", translate.seed, "seed of the parameter sets");
   command->add_option("-o", translate.output, "file or folder to write")->type_name("FILE|DIR");
   command->callback([&] { code = RunTranslate(translate); });
+
+  DiffArguments diff;
+  command = app.add_subcommand("diff", "compares two programs by what they do");
+  AddCommon(*command, diff);
+  AddRunning(*command, diff);
+  command->add_option("--from-a", diff.from_a, "profile of the first program");
+  command->add_option("--from-b", diff.from_b, "profile of the second program");
+  command->add_option("--tolerance", diff.tolerance, "allowed difference of positions, mm")->type_name("MM");
+  command->callback([&] { code = RunDiff(diff); });
 
   FlattenArguments flatten;
   command = app.add_subcommand("flatten", "runs a program and writes every block with literal values");

@@ -85,6 +85,12 @@ struct TranslateResult {
   std::string summary;  // of the comparison, for reading; empty without `verify`
 };
 
+/// `call`, `set` and `start` hold for both programs; `from` where a side has no profile of its own.
+struct DiffOptions : RunSettings {
+  std::string from_a, from_b;
+  double tolerance = 0.0001;  // mm, degrees, on top of what the words of each side round
+};
+
 struct CheckOptions : ReadSettings {
   std::vector<std::string> select, ignore;  // codes or their first characters (`NC5`); empty select: all
 };
@@ -103,6 +109,9 @@ Status Flatten(Context& context, const std::vector<Input>& inputs, const Flatten
 /// Writes the programs in the language of the target, loops and variables kept. Fails after errors.
 Status Translate(Context& context, const std::vector<Input>& inputs, const TranslateOptions& options,
                  TranslateResult& result);
+
+/// Runs both programs and compares what the machine does, also across languages. Fails after a difference.
+Status Diff(Context& context, const Input& a, const Input& b, const DiffOptions& options);
 
 /// Reads and checks all programs. Fails when an error was found. Findings that a comment `ncport: ignore NCxxxx` or the
 /// options silence are not in the context.

@@ -1,0 +1,63 @@
+#include <fmt/format.h>
+
+#include <string>
+
+#include "app/ncport.h"
+#include "app/pipeline.h"
+#include "dialects/machine.h"
+#include "exec/link.h"
+#include "prove/compare.h"
+
+namespace ncport {
+namespace {
+
+/// One side of a comparison: what was read, how it ran.
+struct DiffSide {
+  app::ProgramSet set;
+  ir::Machine machine;
+  prove::RecordedTrace trace;
+  exec::Outcome outcome = exec::Outcome::kEnded;
+};
+
+Status RunSide(Context& context, const Input& input, const std::string& from, const DiffOptions& options,
+               DiffSide& side) {
+  RunSettings settings = options;
+  settings.from = from.empty() ? options.from : from;
+  NCPORT_TRY(app::ReadSet(context, {input}, settings, app::ProfileNeed::kGuess, side.set));
+  NCPORT_TRY_ASSIGN(const exec::RunOptions run, app::RunOptionsFor(context, side.set, settings));
+  side.machine = dialects::MachineFor(side.set.profile);
+  const exec::Linked linked(side.set.module, side.machine);
+  exec::NoEnvironment environment;
+  side.outcome = exec::Run(linked, run, environment, side.trace, context.findings).outcome;
+  if (side.outcome == exec::Outcome::kEnded || side.outcome == exec::Outcome::kAlarmed) return {};
+  return Failure{};
+}
+
+SourceRange PlaceOf(const DiffSide& side, ir::BlockId block) {
+  if (!block.Valid() || block.value >= side.set.module.blocks.Size()) return {};
+  return side.set.module.RangeOf(side.set.module.blocks[block]);
+}
+
+}  // namespace
+
+Status Diff(Context& context, const Input& a, const Input& b, const DiffOptions& options) {
+  DiffSide source, target;
+  NCPORT_TRY(RunSide(context, a, options.from_a, options, source));
+  NCPORT_TRY(RunSide(context, b, options.from_b, options, target));
+  prove::CompareOptions compare;
+  compare.source = {source.machine.word_error, source.set.profile.increment.Or(source.machine.increment),
+                    source.machine.transverse_axis};
+  compare.target = {target.machine.word_error, target.set.profile.increment.Or(target.machine.increment),
+                    target.machine.transverse_axis};
+  compare.maps.cross_language = source.set.profile.language != target.set.profile.language;
+  compare.tolerance = options.tolerance;
+  const prove::Comparison comparison = prove::Compare(source.trace, target.trace, compare);
+  if (!comparison.difference) return {};
+  auto& finding = context.findings.Report(
+      diag::Code::kTraceDiffers, PlaceOf(source, comparison.difference->source_block), comparison.difference->what);
+  const SourceRange other = PlaceOf(target, comparison.difference->target_block);
+  if (other.Valid()) finding.notes.push_back({other, "the other program is here"});
+  return Failure{};
+}
+
+}  // namespace ncport

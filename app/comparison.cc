@@ -258,6 +258,7 @@ prove::Verification CompareTranslation(Context& context, const ProgramSet& sourc
   options.runs = setup.runs;
   options.seed = setup.seed;
   options.max_blocks = setup.max_blocks;
+  options.poison_distance = !target.words.absolute.Or("").empty();
   options.compare.source = PrecisionOf(source.profile, source_machine);
   options.compare.target = PrecisionOf(target, target_machine);
   options.compare.maps = MapsOf(translation);

@@ -24,7 +24,7 @@ class Stage {
   exec::Outcome Run(std::uint16_t skip_levels, std::uint64_t max_blocks, RecordedTrace& trace, diag::Sink& sink,
                     exec::Coverage* coverage);
   /// Modal groups random, cells of `garbage` filled, position unknown.
-  void Poison(Random& random, const std::vector<ir::SpaceId>& garbage);
+  void Poison(Random& random, const VerifyOptions& options);
   void Unpoison();
   [[nodiscard]] const ir::Module& Module() const { return module_; }
 
@@ -126,20 +126,18 @@ exec::Outcome Stage::Run(std::uint16_t skip_levels, std::uint64_t max_blocks, Re
   return exec::Run(*linked_, options_, environment, trace, sink, coverage).outcome;
 }
 
-void Stage::Poison(Random& random, const std::vector<ir::SpaceId>& garbage) {
+void Stage::Poison(Random& random, const VerifyOptions& options) {
   ir::ModalState& start = machine_.start;
   start.motion = static_cast<ir::Motion>(2 + random.Below(2));
   start.plane = static_cast<ir::Plane>(1 + random.Below(3));
-  if (clean_machine_.start.distance == ir::Distance::kUnknown || random.Below(2) == 0) {
-    start.distance = static_cast<ir::Distance>(1 + random.Below(2));
-  }
+  if (options.poison_distance) start.distance = static_cast<ir::Distance>(1 + random.Below(2));
   start.feed_mode = static_cast<ir::FeedMode>(1 + random.Below(2));
   start.speed_mode = static_cast<ir::SpeedMode>(1 + random.Below(2));
   start.units = static_cast<ir::Units>(1 + random.Below(2));
   start.path = static_cast<ir::PathMode>(1 + random.Below(2));
   start.comp = ir::CutterComp::kOff;
   machine_.position_known = false;
-  for (const ir::SpaceId space : garbage) {
+  for (const ir::SpaceId space : options.garbage) {
     const ir::Space& cells = module_.spaces[space];
     for (std::uint32_t cell = std::max(cells.first, 1U); cell <= cells.last && cell < cells.first + 1000; ++cell) {
       exec::StartValue value;
@@ -256,12 +254,17 @@ bool Verifier::CompareFinalValues(const ParameterSet& set, std::string_view star
 bool Verifier::ComparePair(const ParameterSet& set, std::uint16_t skip_levels, std::string_view start,
                            exec::Coverage* coverage) {
   const exec::Outcome a = source_.Run(skip_levels, options_.max_blocks, source_trace_, sink_, coverage);
-  const exec::Outcome b = target_.Run(skip_levels, options_.max_blocks, target_trace_, sink_, nullptr);
+  diag::Sink target_sink;
+  const exec::Outcome b = target_.Run(skip_levels, options_.max_blocks, target_trace_, target_sink, nullptr);
   const auto broken = [](exec::Outcome outcome) {
     return outcome != exec::Outcome::kEnded && outcome != exec::Outcome::kAlarmed;
   };
   if (broken(a) || broken(b)) {
-    result_.not_compared = fmt::format("a run of the {} could not go on", broken(a) ? "source" : "target");
+    result_.not_compared = fmt::format("a run of the {} could not go on ({})", broken(a) ? "source" : "target", start);
+    if (!broken(a) && !target_sink.All().empty()) {
+      const diag::Diagnostic& finding = target_sink.All().front();
+      result_.not_compared += fmt::format(": line {}: {}", finding.at.line, finding.message);
+    }
     return false;
   }
   Comparison comparison = Compare(source_trace_, target_trace_, options_.compare);
@@ -301,7 +304,7 @@ bool Verifier::RunSet(const ParameterSet& set) {
     for (std::size_t i = 0; i < coverage_.blocks.size(); ++i)
       covered_[i] = static_cast<std::uint8_t>(covered_[i] | coverage_.blocks[i]);
   }
-  target_.Poison(random_, options_.garbage);
+  target_.Poison(random_, options_);
   const bool same = ComparePair(set, 0, "poisoned start", nullptr);
   target_.Unpoison();
   coverage_.quotients = quotients;

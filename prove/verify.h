@@ -70,7 +70,8 @@ struct Verification {
   std::size_t longest_trace = 0;
 };
 
-/// Findings of runs that could not go on (unknown values, limits) are in `sink`.
+/// Findings of source runs that could not go on (unknown values, limits) are in `sink`; what stops the target is in
+/// Verification::not_compared, since its text is no file of the user.
 Verification Verify(const Side& source, const Side& target, const std::vector<BoundInput>& inputs,
                     const VerifyOptions& options, diag::Sink& sink);
 

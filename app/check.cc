@@ -8,6 +8,7 @@
 
 #include "app/ncport.h"
 #include "app/pipeline.h"
+#include "check/labels.h"
 
 namespace ncport {
 namespace {
@@ -36,10 +37,10 @@ void AddCodes(std::string_view text, const SourceRange& comment, const SourceRan
   if (at == std::string_view::npos) return;
   std::string_view rest = text.substr(at + kIgnoreMark.size());
   while (!rest.empty()) {
-    const std::size_t begin = rest.find_first_not_of(" ,");
+    const std::size_t begin = rest.find_first_not_of(" ,)");
     if (begin == std::string_view::npos) break;
     rest.remove_prefix(begin);
-    const std::size_t end = rest.find_first_of(" ,");
+    const std::size_t end = rest.find_first_of(" ,)");
     const std::string_view code = rest.substr(0, end);
     if (!code.starts_with("NC")) break;
     ignores.emplace(std::pair{silenced.file.value, silenced.line}, Ignore{comment, std::string(code), false});
@@ -47,7 +48,7 @@ void AddCodes(std::string_view text, const SourceRange& comment, const SourceRan
   }
 }
 
-Ignores CollectIgnores(const ir::Module& module) {
+Ignores CollectIgnores(const SourceFiles& files, const ir::Module& module) {
   Ignores ignores;
   for (const ir::Program& program : module.programs.All()) {
     for (const ir::BlockId id : program.blocks) {
@@ -64,6 +65,8 @@ Ignores CollectIgnores(const ir::Module& module) {
       }
       for (const ir::CommentId comment : block.comments)
         AddCodes(module.View(module.comments[comment].text), own, silenced, ignores);
+      // The comment of a block that was not understood is still part of its text.
+      if ((block.flags & ir::Block::kRefused) != 0) AddCodes(files.Line(own.file, own.line), own, own, ignores);
     }
   }
   return ignores;
@@ -75,7 +78,12 @@ Status Check(Context& context, const std::vector<Input>& inputs, const CheckOpti
   app::ProgramSet set;
   (void)app::ReadSet(context, inputs, options, app::ProfileNeed::kGuess, set);
 
-  Ignores ignores = CollectIgnores(set.module);
+  for (const ir::ProgramId program : set.module.programs.Ids()) {
+    if (!set.module.programs[program].library)
+      check::CheckLabels(set.module, program, set.profile.names.ignore_case.Or(true), context.findings);
+  }
+
+  Ignores ignores = CollectIgnores(context.files, set.module);
   context.findings.Remove([&](const diag::Diagnostic& finding) {
     const auto [first, last] = ignores.equal_range({finding.at.file.value, finding.at.line});
     for (auto it = first; it != last; ++it) {

@@ -45,6 +45,8 @@ struct Running {
   std::vector<std::string> set;
   std::string start;
   std::uint64_t max_blocks = RunSettings{}.max_blocks;
+  std::uint64_t max_cells = RunSettings{}.max_cells;
+  std::uint64_t max_text_bytes = RunSettings{}.max_text_bytes;
 };
 
 /// Findings about the command line, profiles and configuration: the programs are not to blame.
@@ -112,6 +114,8 @@ class Session {
     settings.set = running.set;
     settings.start = running.start;
     settings.max_blocks = running.max_blocks;
+    settings.max_cells = running.max_cells;
+    settings.max_text_bytes = running.max_text_bytes;
   }
 
   /// Findings to standard error, in the order of their places. --quiet leaves errors only.
@@ -381,6 +385,8 @@ void AddRunning(CLI::App& command, Running& running) {
   command.add_option("--set", running.set, "start value of a variable: NAME=VALUE")->allow_extra_args(false);
   command.add_option("--start", running.start, "position at the start, as the profile programs it: X0Y0Z0");
   command.add_option("--max-blocks", running.max_blocks, "executed blocks after which the run is stopped");
+  command.add_option("--max-cells", running.max_cells, "variables that a run may hold, each element of an array counted");
+  command.add_option("--max-text-bytes", running.max_text_bytes, "memory that the texts of a run may take");
 }
 
 int Main(int argc, char** argv) {

@@ -99,6 +99,8 @@ Status ReadSet(Context& context, const std::vector<Input>& inputs, const ReadSet
 Result<exec::RunOptions> RunOptionsFor(Context& context, const ProgramSet& set, const RunSettings& settings) {
   exec::RunOptions options;
   options.max_blocks = settings.max_blocks;
+  options.max_cells = settings.max_cells;
+  options.max_text_bytes = settings.max_text_bytes;
   const bool ignore_case = set.profile.names.ignore_case.Or(true);
   if (!settings.call.empty()) {
     NCPORT_TRY(ApplyCall(settings.call, set.module, ignore_case, options, context.findings));

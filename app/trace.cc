@@ -29,7 +29,7 @@ class AlarmReporter final : public exec::EventSink {
     };
     diag::Diagnostic& finding =
         findings_.Report(diag::Code::kProgramAlarm, place(event.block),
-                         event.text.empty() ? std::string(event.code) : fmt::format("{} {}", event.code, event.text));
+                         fmt::format("{}{}{}", event.code, event.code.empty() || event.text.empty() ? "" : " ", event.text));
     if (event.frames == nullptr) return;
     for (std::uint32_t level = event.frames->depth; level-- > 0;) {
       const ir::BlockId call = event.frames->call_blocks[level];

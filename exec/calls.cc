@@ -194,7 +194,7 @@ bool Runner::Call(ir::CallId id) {
   }
   const Memory::Address cells = memory_.Push(level_cells + session_.linked.FrameSize(program));
   if (cells == Memory::kNoRoom || (again && level.arguments == Memory::kNoRoom)) {
-    session_.Limit("RunOptions::max_cells", diag::Code::kCellLimit, session_.options.max_cells);
+    session_.Limit("--max-cells", diag::Code::kCellLimit, session_.options.max_cells);
     return true;
   }
   if (call.new_level) level.facts.level = cells;
@@ -250,7 +250,7 @@ bool Runner::CallRange(const ir::Call& call, std::uint32_t passes) {
   if (!own) {
     level.facts.frame = memory_.Push(session_.linked.FrameSize(program));
     if (level.facts.frame == Memory::kNoRoom) {
-      session_.Limit("RunOptions::max_cells", diag::Code::kCellLimit, session_.options.max_cells);
+      session_.Limit("--max-cells", diag::Code::kCellLimit, session_.options.max_cells);
       return true;
     }
     InitFrame(program, level.facts.frame);

@@ -18,7 +18,7 @@ namespace ops = ir::ops;
 Value Evaluator::NewText(std::string_view text) {
   const Value value = texts_.Add(text);
   if (texts_.Full())
-    session_.Limit("RunOptions::max_text_bytes", diag::Code::kTextLimit, session_.options.max_text_bytes);
+    session_.Limit("--max-text-bytes", diag::Code::kTextLimit, session_.options.max_text_bytes);
   return value;
 }
 

@@ -83,7 +83,7 @@ bool Runner::TriggerModal() {
     const std::uint32_t size = session_.linked.LevelCells() + session_.linked.FrameSize(modal.program);
     cells = memory_.Push(size);
     if (cells == Memory::kNoRoom) {
-      session_.Limit("RunOptions::max_cells", diag::Code::kCellLimit, session_.options.max_cells);
+      session_.Limit("--max-cells", diag::Code::kCellLimit, session_.options.max_cells);
       return true;
     }
     for (std::uint32_t i = 0; i < size; ++i) memory_[cells + i] = memory_[kept + i];

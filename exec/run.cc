@@ -42,7 +42,7 @@ bool Runner::Prepare() {
   const RunOptions& options = session_.options;
   NCPORT_CHECK(session_.module.programs.Contains(options.entry), "no program {} to run", options.entry.value);
   if (!memory_.Ok()) {
-    session_.Limit("RunOptions::max_cells", diag::Code::kCellLimit, options.max_cells);
+    session_.Limit("--max-cells", diag::Code::kCellLimit, options.max_cells);
     return false;
   }
   std::ranges::copy(session_.linked.FixedValues(), memory_.Fixed(session_.linked.NamedCells()).begin());
@@ -78,7 +78,7 @@ bool Runner::Prepare() {
   main.facts.main_program = options.entry;
   main.facts.level = memory_.Push(size);
   if (main.facts.level == Memory::kNoRoom) {
-    session_.Limit("RunOptions::max_cells", diag::Code::kCellLimit, options.max_cells);
+    session_.Limit("--max-cells", diag::Code::kCellLimit, options.max_cells);
     return false;
   }
   main.facts.frame = main.facts.level + session_.linked.LevelCells();

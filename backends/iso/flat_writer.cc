@@ -145,7 +145,7 @@ void FlatWriter::Dispatch(const exec::Event& event) {
       return EndLine();
     case EventKind::kAlarm: {
       const std::string what =
-          event.text.empty() ? std::string(event.code) : fmt::format("{} {}", event.code, event.text);
+          fmt::format("{}{}{}", event.code, event.code.empty() || event.text.empty() ? "" : " ", event.text);
       NoteCalls(sink_.Report(diag::Code::kProgramAlarm, Place(), what));
       return;
     }

@@ -5,6 +5,7 @@
 #include "frontend/common/chars.h"
 #include "frontend/common/module_mark.h"
 #include "frontend/common/report_line_error.h"
+#include "frontend/common/reserve.h"
 #include "frontend/iso/lower.h"
 #include "frontend/iso/parser.h"
 #include "frontend/iso/token_kind.h"
@@ -42,6 +43,7 @@ class Reader {
     const std::uint32_t lines = files_.LineCount(file_);
     module_.blocks.Reserve(module_.blocks.Size() + lines);
     module_.origins.Reserve(module_.origins.Size() + lines);
+    ReserveFor(files_.Text(file_).size(), module_);
     for (std::uint32_t line = 1; line <= lines; ++line) ReadLine(files_.Line(file_, line), line);
     program.blocks.count = static_cast<std::uint32_t>(module_.blocks.Size()) - program.blocks.begin;
     module_.programs.Add(program);

@@ -7,6 +7,7 @@
 #include "frontend/common/line_error.h"
 #include "frontend/common/module_mark.h"
 #include "frontend/common/report_line_error.h"
+#include "frontend/common/reserve.h"
 #include "frontend/common/shape_cache.h"
 #include "frontend/sinumerik/lower.h"
 #include "frontend/sinumerik/parser.h"
@@ -120,6 +121,7 @@ class Reader {
     const std::uint32_t lines = files_.LineCount(file_);
     module_.blocks.Reserve(module_.blocks.Size() + lines);
     module_.origins.Reserve(module_.origins.Size() + lines);
+    ReserveFor(files_.Text(file_).size(), module_);
     for (std::uint32_t line = FirstLine(lines); line <= lines; ++line) {
       const std::string_view text = files_.Line(file_, line);
       if (!text.empty() && text[0] == '%' && ReadFileMark(text, line)) continue;

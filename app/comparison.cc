@@ -196,7 +196,7 @@ void Binder::Cells(ir::ProgramId entry, const ir::Machine& machine, std::vector<
   }
 }
 
-prove::Maps MapsOf(const backends::Translation& translation) {
+prove::Maps MapsOf(const backends::Translation& translation, bool separate_registers) {
   prove::Maps maps;
   maps.tools_mapped = !translation.tools.empty();
   for (const backends::ToolUse& use : translation.tools) {
@@ -206,12 +206,15 @@ prove::Maps MapsOf(const backends::Translation& translation) {
     pair.source_edge = use.source_edge;
     pair.target_tool = use.target_tool;
     pair.target_offset = use.target_offset;
+    pair.target_radius = use.target_radius;
     maps.tools.push_back(pair);
   }
   for (const backends::OffsetUse& use : translation.offsets) {
     maps.work_offsets.push_back({use.source, use.target, use.source_extension, use.target_extension});
   }
   for (const backends::AuxUse& use : translation.aux) maps.aux.push_back({use.source, use.target});
+  maps.separate_registers = separate_registers;
+  maps.tool_change_added = translation.tool_change_added;
   maps.messages_lost = translation.messages_lost;
   maps.path_lost = translation.path_lost;
   return maps;
@@ -261,7 +264,7 @@ prove::Verification CompareTranslation(Context& context, const ProgramSet& sourc
   options.poison_distance = !target.words.absolute.Or("").empty();
   options.compare.source = PrecisionOf(source.profile, source_machine);
   options.compare.target = PrecisionOf(target, target_machine);
-  options.compare.maps = MapsOf(translation);
+  options.compare.maps = MapsOf(translation, !target.IsLathe());
   options.compare.maps.cross_language = source.profile.language != target.language;
   for (const ir::SpaceId space : module.spaces.Ids()) {
     if (module.spaces[space].lifetime == ir::Lifetime::kKept) options.garbage.push_back(space);

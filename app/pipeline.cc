@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 #include <string>
 #include <utility>
@@ -85,6 +86,9 @@ Status ReadSet(Context& context, const std::vector<Input>& inputs, const ReadSet
   NCPORT_TRY_ASSIGN(set.profile, ChooseProfile(context, inputs.front(), settings, need));
   Status ok;
   for (const Input& input : inputs) {
+    if (const FileId known = context.files.Find(input.name);
+        known.Valid() && std::find(set.inputs.begin(), set.inputs.end(), known) != set.inputs.end())
+      continue;  // named twice
     FileId id;
     const Status added = AddFile(context, input, id);
     set.inputs.push_back(id);

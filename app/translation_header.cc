@@ -86,6 +86,8 @@ std::vector<backends::ProgramHeader> HeadersOf(const Context& context, const Pro
       for (const std::string& required : translation.required) lines.push_back("REQUIRES " + required);
       for (const backends::ProgramName& program : translation.programs)
         lines.push_back(fmt::format("PROGRAM {} = {}", program.source, program.target));
+      for (const backends::AlarmUse& alarm : translation.alarms)
+        lines.push_back(fmt::format("ALARM {} = #3000={}", alarm.source, alarm.target));
       for (const backends::ToolUse& tool : translation.tools)
         lines.push_back(fmt::format("TOOL {} = {}", tool.source_words, tool.target_words));
       for (const backends::OffsetUse& offset : translation.offsets) {
@@ -101,6 +103,7 @@ std::vector<backends::ProgramHeader> HeadersOf(const Context& context, const Pro
         lines.push_back(fmt::format("COMPARED: {} PARAMETER SETS, {} OF {} BRANCHES, NO DIFFERENCE",
                                     verification->sets_counted, verification->branches_taken, verification->branches));
       }
+      for (const std::string& assumption : translation.assumptions) lines.push_back("ASSUMED: " + assumption);
       std::set<std::string> lost;
       for (const backends::Loss& loss : translation.losses) lost.insert(loss.what.substr(0, loss.what.find(' ')));
       for (const std::string& what : lost) lines.push_back("LOST: " + what + ", KEPT AS COMMENT");

@@ -151,6 +151,7 @@ struct Machine {
   bool surface_speed_per_revolution = true;  // constant surface speed switches the feed to per revolution
   ModalCallTrigger modal_call_trigger = ModalCallTrigger::kMotionBlocks;
   bool tool_activates_edge = false;          // a tool call without edge selects edge 1
+  bool tool_word_changes = false;            // the tool word changes the tool; else it waits for a change word
 
   NumberUnits units;
   DwellUnit dwell_per_revolution = DwellUnit::kSeconds;  // G4 while the feed is per revolution

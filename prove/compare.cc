@@ -52,6 +52,7 @@ struct Selected {
   bool offset_known = false;
   OffsetKind offset_kind = OffsetKind::kNone;
   std::uint32_t offset = 0;
+  std::uint32_t length = 0, radius = 0;  // registers by kind
   bool wcs_known = false;
   std::uint32_t wcs = 0, wcs_extension = 0;
   ir::CutterComp comp = ir::CutterComp::kUnknown;
@@ -141,6 +142,8 @@ bool Walk::TakeState(const Event& event) {
         state.offset_known = true;
         state.offset_kind = event.offset;
         state.offset = event.offset == OffsetKind::kNone ? 0 : event.number;
+        if (event.offset != OffsetKind::kRadius) state.length = state.offset;
+        if (event.offset != OffsetKind::kLength) state.radius = state.offset;
         return !before.offset_known || before.offset_kind != state.offset_kind || before.offset != state.offset;
       case EventKind::kWorkOffset:
         state.wcs_known = true;
@@ -221,6 +224,7 @@ const Event* Walk::Next() {
         continue;
       case EventKind::kAux:
         if (event.added) continue;
+        if (!source_ && maps_.tool_change_added && event.number == 6) continue;
         if (source_) {
           const auto pair = std::find_if(maps_.aux.begin(), maps_.aux.end(),
                                          [&](const AuxPair& aux) { return aux.source == event.number; });
@@ -407,6 +411,17 @@ void Comparer::CompareToolState(const Event& a, const Event& b) {
     const bool tool = pair.source_name.empty() ? sa.tool_name.empty() && pair.source_tool == sa.tool
                                                : pair.source_name == sa.tool_name;
     if (!tool) continue;
+    if (options_.maps.separate_registers) {
+      // An edge is a length, which counts when Z moves, and a radius, which counts under compensation.
+      const bool off = sa.offset_known && sa.offset_kind == OffsetKind::kNone;
+      if (!off && (!sa.offset_known || sa.offset != pair.source_edge)) continue;
+      constexpr std::uint16_t kZ = 1U << 2U;
+      const bool compensated = sa.comp == ir::CutterComp::kLeft || sa.comp == ir::CutterComp::kRight;
+      const bool length = (b.moved_axes & kZ) == 0 || sb.length == (off ? 0 : pair.target_offset);
+      const bool radius = !compensated || sb.radius == (off ? 0 : pair.target_radius);
+      if (length && radius) return;
+      continue;
+    }
     const bool edge = pair.source_edge == 0 || (sa.offset_known && sa.offset == pair.source_edge);
     const bool none = sa.offset_known && sa.offset_kind == OffsetKind::kNone && sb.offset_kind == OffsetKind::kNone;
     if (none || (edge && (pair.target_offset == 0 || sb.offset == pair.target_offset))) return;
@@ -450,7 +465,8 @@ void Comparer::ComparePair(const Event& a, const Event& b) {
       if (a.kind != EventKind::kReference) ComparePositions(a, b);
       if (!Failed()) CompareMotionDetails(a, b);
       if (!Failed() && IsCutting(a.kind)) CompareSpindles(a, b, source_.Spindle(), target_.Spindle());
-      if (!Failed() && IsCutting(a.kind)) CompareToolState(a, b);
+      if (!Failed() && (IsCutting(a.kind) || (options_.maps.separate_registers && a.kind == EventKind::kRapid)))
+        CompareToolState(a, b);
       if (!Failed() && source_.Now().wcs_known && target_.Now().wcs_known) {
         CompareWorkOffset(a, b, source_.Now().wcs, source_.Now().wcs_extension, target_.Now().wcs,
                           target_.Now().wcs_extension);

@@ -27,6 +27,7 @@ struct ToolPair {
   std::string target_name;
   std::uint32_t target_tool = 0;
   std::uint32_t target_offset = 0;  // register of the target; 0 = none
+  std::uint32_t target_radius = 0;  // mills: register of the radius, target_offset is that of the length; 0 = none
 };
 struct NumberPair {
   std::uint32_t source = 0, target = 0;
@@ -46,6 +47,8 @@ struct Maps {
   bool path_lost = false;                   // PATH likewise
   std::vector<std::uint32_t> split_rapids;  // source blocks whose rapid the target writes axis by axis
   bool cross_language = true;               // alarms agree by class, else by their first word
+  bool tool_change_added = false;           // M6 of the target, where the source's T changes the tool by itself
+  bool separate_registers = false;          // the target names length and radius by registers of their own (a mill)
   bool tools_mapped = false;                // tools and offsets go through `tools`; one without an entry differs
 };
 

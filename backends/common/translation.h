@@ -19,9 +19,14 @@ struct ToolUse {
   std::string source_name;   // named tools
   std::uint32_t source_tool = 0, source_edge = 0;
   std::uint32_t target_tool = 0, target_offset = 0;
+  std::uint32_t target_radius = 0;  // mills: D register; 0 = none
 };
 struct OffsetUse {
   std::uint32_t source = 0, source_extension = 0, target = 0, target_extension = 0;
+};
+/// Number of a user alarm.
+struct AlarmUse {
+  std::uint32_t source = 0, target = 0;
 };
 struct AuxUse {
   std::uint32_t source = 0;
@@ -47,12 +52,14 @@ struct Translation {
   std::vector<ToolUse> tools;
   std::vector<OffsetUse> offsets;
   std::vector<AuxUse> aux;
+  std::vector<AlarmUse> alarms;
   std::vector<Loss> losses;
   std::vector<std::string> added;        // blocks without a source block, with the reason
   std::vector<std::string> required;     // what the machine must have: options, parameters, settings
   std::vector<std::string> assumptions;  // unverified rules and settings that the output rests on, with the card row
   bool messages_lost = false;
   bool path_lost = false;
+  bool tool_change_added = false;  // the target has a change word where the source's tool word changes by itself
 };
 
 }  // namespace ncport::backends

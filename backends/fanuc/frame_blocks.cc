@@ -53,7 +53,7 @@ bool IsTool(const Module& module, const Translation& out, BlockId id) {
 }
 
 /// The safety line for profiles that give no header of their own: one word of each group.
-std::vector<std::string> SafetyLines(const RaiseInput& input) {
+std::vector<std::string> SafetyLines(const RaiseInput& input, bool calls_tools) {
   const dialects::Profile& profile = *input.profile;
   const auto system = dialects::fanuc::SystemOf(profile);
   const auto code = [&](WordOp op, std::uint8_t index) -> std::string {
@@ -74,7 +74,8 @@ std::vector<std::string> SafetyLines(const RaiseInput& input) {
       start.plane == ir::Plane::kUnknown ? (profile.IsLathe() ? ir::Plane::kZX : ir::Plane::kXY) : start.plane;
   add(code(WordOp::kPlane, static_cast<std::uint8_t>(plane)));
   add(code(WordOp::kCutterComp, static_cast<std::uint8_t>(ir::CutterComp::kOff)));
-  if (!profile.IsLathe()) add(profile.words.length_offset_off.Or(""));
+  // A program without a tool call works with the length that is in force: that stays.
+  if (!profile.IsLathe() && calls_tools) add(profile.words.length_offset_off.Or(""));
   add("G80");
   add(profile.words.absolute.Or(""));
   const ir::FeedMode feed = start.feed_mode == ir::FeedMode::kUnknown
@@ -92,9 +93,11 @@ std::vector<std::string> SafetyLines(const RaiseInput& input) {
 bool FrameMainPrograms(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   Module& module = out.module;
   const dialects::Profile& profile = *input.profile;
+  if (!dialects::Need(profile, profile.words.header, {}, sink)) return false;
+  if (!dialects::Need(profile, profile.words.footer, {}, sink)) return false;
   std::vector<std::string> head = *profile.words.header;
   if (head.empty()) {
-    head = SafetyLines(input);
+    head = SafetyLines(input, !out.tools.empty());
   }
   if (profile.fanuc.variant.Is(dialects::FanucSettings::Variant::kMazak) && profile.IsLathe()) {
     const SourceRange nowhere{};

@@ -306,6 +306,9 @@ void Printer::PrintWord(const Word& word, const Block& block) {
     case WordOp::kWorkOffset:
       if (word.value.Valid()) return Template(*profile_.words.work_offset_extended, word.value);
       return PrintCode(word);
+    case WordOp::kFrame:
+      Blank();
+      return out_.Append(dialects::fanuc::TextOf(system_, dialects::fanuc::Special::kLocalShift));
     case WordOp::kFileMark:
     case WordOp::kInert:
       Blank();

@@ -10,7 +10,9 @@
 
 #include "backends/fanuc/frame_blocks.h"
 #include "backends/fanuc/limit_nesting.h"
+#include "backends/fanuc/mill_tools.h"
 #include "backends/fanuc/raise_words.h"
+#include "backends/fanuc/shifts.h"
 #include "dialects/fanuc/words.h"
 #include "ir/transform/absolute_dimensions.h"
 #include "ir/transform/lower_expressions.h"
@@ -126,12 +128,20 @@ bool CheckLegal(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   const dialects::Profile& profile = *input.profile;
   const auto system = *dialects::fanuc::SystemOf(profile);
   bool ok = true;
+  std::set<std::string> asked;
   for (const ir::ProgramId program : module.programs.Ids()) {
     for (const ir::BlockId id : module.programs[program].blocks) {
       const ir::Block& block = module.blocks[id];
       const auto refuse = [&](const Word& word, std::string_view what) {
         ok = false;
         sink.Report(diag::Code::kNotExpressible, module.RangeOf(block, word), what, profile.name);
+      };
+      // A setting that the profile leaves open is named once.
+      const auto need = [&](const auto& setting, const Word& word) {
+        if (setting.Known()) return;
+        ok = false;
+        if (asked.insert(std::string(setting.Key())).second)
+          static_cast<void>(dialects::Need(profile, setting, module.RangeOf(block, word), sink));
       };
       if ((block.flags & ir::Block::kRefused) != 0) {
         ok = false;
@@ -150,16 +160,24 @@ bool CheckLegal(const RaiseInput& input, Translation& out, diag::Sink& sink) {
           case WordOp::kJump:
           case WordOp::kWhen:
           case WordOp::kAlarm:
-          case WordOp::kProgramEnd:
           case WordOp::kCenter:
           case WordOp::kRadius:
           case WordOp::kFeed:
           case WordOp::kStartAngle:
           case WordOp::kSpeed:
-          case WordOp::kSpeedLimit:
+          case WordOp::kRadiusOffset:
           case WordOp::kAux:
             break;
+          case WordOp::kSpeedLimit:
+            need(profile.spindle.limit, word);
+            break;
+          case WordOp::kProgramEnd:
+            need(profile.words.end, word);
+            break;
+          case WordOp::kFrame:  // G52; all others were refused
+            break;
           case WordOp::kReturn:
+            need(profile.words.sub_end, word);
             if (word.value.Valid()) refuse(word, "a return to a label of the caller");
             break;
           case WordOp::kInert:
@@ -183,11 +201,17 @@ bool CheckLegal(const RaiseInput& input, Translation& out, diag::Sink& sink) {
             break;
           }
           case WordOp::kSpindle:
-            if (word.extra == static_cast<std::uint32_t>(ir::SpindleState::kPositioned)) refuse(word, named());
+            if (word.extra == static_cast<std::uint32_t>(ir::SpindleState::kPositioned)) {
+              refuse(word, named());
+            } else {
+              const auto state = static_cast<ir::SpindleState>(word.extra);
+              const auto& words = profile.spindle;
+              need(state == ir::SpindleState::kCw ? words.cw : state == ir::SpindleState::kCcw ? words.ccw : words.stop, word);
+            }
             break;
           case WordOp::kDwellSeconds:
-            if (profile.fanuc.dwell.Known() || !profile.IsLathe()) break;
-            ok = dialects::Need(profile, profile.fanuc.dwell, module.RangeOf(block, word), sink) && ok;
+            if (profile.IsLathe()) need(profile.fanuc.dwell, word);
+            need(profile.words.dwell, word);
             break;
           default: {
             const std::uint32_t extra = word.op == WordOp::kWorkOffset ? word.extra : Id<void>::kNone;
@@ -241,7 +265,8 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   const ir::ModalState entry = input.config != nullptr ? input.config->entry : ir::ModalState{};
 
   TextsToComments(input, out, sink);
-  bool ok = SaveToRestores(module, machine, entry, sink);
+  bool ok = RefuseInputs(input, out, sink);
+  ok = SaveToRestores(module, machine, entry, sink) && ok;
   for (const ir::ProgramId program : module.programs.Ids()) SplitStatements(module, program);
   // Programs are split before positions are followed: a position does not cross a tool change.
   SplitResult split;
@@ -253,7 +278,9 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   // While the source's modes still stand in the blocks: words that name what the target must be told.
   NameMotions(input, out);
   ok = ArrangeSpindle(input, out, sink) && ok;
-  ok = MapTools(input, out, sink) && ok;
+  ok = (profile.IsLathe() ? MapTools(input, out, sink) : MapMillTools(input, out, sink)) && ok;
+  ok = ShiftsToLocal(input, out, sink) && ok;
+  ok = MapAlarms(input, out, sink) && ok;
   AbsoluteDimensionsConfig dimensions;
   dimensions.diameter_axis = profile.diameter.Is(dialects::DiameterRule::kYes) ? 0 : 0xFF;
   dimensions.sub_entry = entry;

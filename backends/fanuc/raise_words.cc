@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/number_text.h"
+#include "backends/fanuc/message_text.h"
 #include "ir/analysis/call_graph.h"
 #include "ir/analysis/cfg.h"
 #include "ir/analysis/modal_state.h"
@@ -36,47 +36,6 @@ Word TextWord(Module& module, std::string_view text) {
   word.phase = ir::DefaultPhaseOf(WordOp::kInert);
   word.spelling = ir::AddSpelling(module, text, "");
   return word;
-}
-
-std::string NumberText(double value) {
-  TextBuffer text;
-  AppendTrimmed(text, value, 6);
-  return std::string(text.View());
-}
-
-/// The message as far as it is text; computed parts by the name of their variable, else as dots.
-void AppendMessage(const Module& module, ExprId id, std::string& out) {
-  if (!id.Valid()) return;
-  const ir::Expr& expr = module.exprs[id];
-  switch (expr.op) {
-    case ExprOp::kText:
-      out += module.View(StringId{expr.a});
-      return;
-    case ExprOp::kConcat:
-      AppendMessage(module, ExprId{expr.a}, out);
-      AppendMessage(module, ExprId{expr.b}, out);
-      return;
-    case ExprOp::kGroup:
-    case ExprOp::kConvert:
-      return AppendMessage(module, ExprId{expr.a}, out);
-    case ExprOp::kVariable:
-      out += module.View(module.variables[ir::VariableId{expr.a}].name);
-      return;
-    case ExprOp::kLiteral:
-      out += NumberText(expr.number);
-      return;
-    case ExprOp::kAdd:
-    case ExprOp::kSubtract:
-      AppendMessage(module, ExprId{expr.a}, out);
-      out += expr.op == ExprOp::kAdd ? "+" : "-";
-      AppendMessage(module, ExprId{expr.b}, out);
-      return;
-    case ExprOp::kCell:
-      out += fmt::format("{}{}", module.View(module.spaces[ir::SpaceId{expr.a}].name), expr.b);
-      return;
-    default:
-      out += "..";
-  }
 }
 
 /// Takes words out of a block and gives it a comment instead.
@@ -524,13 +483,15 @@ void NameMotions(const RaiseInput& input, Translation& out) {
     ir::Motion running = ir::Motion::kUnknown;  // of the block before on the straight way down
     for (const BlockId id : module.programs[program].blocks) {
       Block& block = module.blocks[id];
-      bool moves = false, named = false, leaves = false;
+      bool moves = false, named = false, leaves = false, shift = false;
       for (const WordId word_id : block.words) {
         const Word& word = module.words[word_id];
         moves = moves || word.op == WordOp::kAxis || word.op == WordOp::kCenter || word.op == WordOp::kRadius;
         named = named || word.op == WordOp::kMotion;
         leaves = leaves || ir::DefaultPhaseOf(word.op) == ir::Phase::kFlow || word.op == WordOp::kInert;
+        shift = shift || word.op == WordOp::kFrame;
       }
+      if (shift) continue;  // its axis words are no move
       if (block.label.Valid() || block.number != Block::kNoNumber || leaves || block.skip_level != Block::kNoSkip)
         running = ir::Motion::kUnknown;
       const ir::Motion motion = flow.At(program, id).motion;

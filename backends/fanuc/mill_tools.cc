@@ -1,0 +1,588 @@
+#include "backends/fanuc/mill_tools.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ir/analysis/call_graph.h"
+#include "ir/analysis/cfg.h"
+#include "ir/analysis/modal_state.h"
+#include "ir/builder.h"
+#include "ir/transform/program_editor.h"
+
+namespace ncport::backends::fanuc {
+
+namespace {
+
+using ir::Block;
+using ir::BlockId;
+using ir::ExprId;
+using ir::ExprOp;
+using ir::Module;
+using ir::ProgramId;
+using ir::Word;
+using ir::WordId;
+using ir::WordOp;
+using ir::transform::ProgramEditor;
+
+constexpr std::uint8_t kZ = 2;
+
+/// What is selected on arrival at a block. Each part is one value on every way, or kMixed.
+struct Selection {
+  static constexpr int kNever = -2;  // no way leads here
+  static constexpr int kMixed = -1;
+  static constexpr int kNone = 0;  // nothing selected since the program started
+  static constexpr int kYes = 1, kNo = 2;
+
+  int tool = kNever;      // 1 + index of the tool's words
+  int prepared = kNever;  // by a T word that waits for its M6
+  int edge = kNever;      // 1 + number
+  int told = kNever;      // kYes: the length register of the target is the right one; kNo: the next Z word names it
+  bool operator==(const Selection&) const = default;
+};
+
+int Join(int a, int b) {
+  if (a == Selection::kNever) return b;
+  if (b == Selection::kNever || a == b) return a;
+  return Selection::kMixed;
+}
+Selection Join(const Selection& a, const Selection& b) {
+  return {Join(a.tool, b.tool), Join(a.prepared, b.prepared), Join(a.edge, b.edge), Join(a.told, b.told)};
+}
+
+/// The words of a [tools] line.
+struct TargetWords {
+  std::string call;  // "T1 M6"
+  std::uint32_t tool = 0;
+  std::optional<std::uint32_t> length, radius;
+};
+
+std::optional<std::uint32_t> NumberOf(std::string_view digits) {
+  std::uint32_t number = 0;
+  const auto [last, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  if (error != std::errc{} || last != digits.data() + digits.size()) return std::nullopt;
+  return number;
+}
+
+std::optional<TargetWords> Parse(std::string_view words) {
+  TargetWords parsed;
+  bool has_tool = false;
+  while (!words.empty()) {
+    const std::size_t end = std::min(words.find(' '), words.size());
+    const std::string_view word = words.substr(0, end);
+    words.remove_prefix(std::min(end + 1, words.size()));
+    if (word.empty()) continue;
+    const auto number = NumberOf(word.substr(1));
+    if (word[0] == 'H' && number) {
+      parsed.length = *number;
+      continue;
+    }
+    if (word[0] == 'D' && number) {
+      parsed.radius = *number;
+      continue;
+    }
+    if (word[0] == 'T' && number) {
+      parsed.tool = *number;
+      has_tool = true;
+    }
+    parsed.call += (parsed.call.empty() ? "" : " ") + std::string(word);
+  }
+  if (!has_tool) return std::nullopt;
+  return parsed;
+}
+
+std::optional<std::uint32_t> WholeNumber(const Module& module, ExprId id) {
+  if (!id.Valid()) return std::nullopt;
+  const ir::Expr& expr = module.exprs[id];
+  if (expr.op == ExprOp::kGroup || expr.op == ExprOp::kConvert) return WholeNumber(module, ExprId{expr.a});
+  if (expr.op != ExprOp::kLiteral || expr.number < 0 || expr.number != std::floor(expr.number) || expr.number > 1e6)
+    return std::nullopt;
+  return static_cast<std::uint32_t>(expr.number);
+}
+
+class Mapper {
+ public:
+  Mapper(const RaiseInput& input, Translation& out, diag::Sink& sink)
+      : input_(input),
+        out_(out),
+        sink_(sink),
+        module_(out.module),
+        graphs_(out.module),
+        calls_(out.module),
+        flow_(out.module, *input.source_machine, graphs_, calls_,
+              {input.source_machine->start, input.config != nullptr ? input.config->entry : ir::ModalState{}}) {}
+
+  bool Run();
+
+ private:
+  /// The words of a block that matter here.
+  struct Words {
+    const Word* tool = nullptr;
+    const Word* edge = nullptr;
+    bool change = false;
+    bool moves_z = false;
+    bool moves = false;
+    const Word* compensation = nullptr;  // left or right
+    bool conditional = false;
+    std::vector<ProgramId> callees;
+  };
+  [[nodiscard]] Words Look(const Block& block) const;
+
+  void NameTools();
+  void FindEffects();
+  void Flow();
+  [[nodiscard]] Selection Through(const Words& words, const Selection& before) const;
+  /// With the block's own tool words, before its motion.
+  [[nodiscard]] Selection Select(const Words& words, Selection state) const;
+  void Rewrite(ProgramId program);
+
+  [[nodiscard]] int ToolOf(const Word* word) const;
+  [[nodiscard]] int EdgeOf(const Word* word) const;
+  [[nodiscard]] std::string SourceWords(int tool, int edge) const {
+    std::string words = names_[static_cast<std::size_t>(tool - 1)];
+    if (edge > 0) words += fmt::format(" D{}", edge - 1);
+    return words;
+  }
+  /// The target's words of a tool with an edge; none after a finding.
+  const TargetWords* Target(int tool, int edge, const SourceRange& at);
+  void Refuse(const SourceRange& at, std::string_view what, std::string_view help) {
+    ok_ = false;
+    auto& finding = sink_.Report(diag::Code::kNotExpressible, at, what, input_.profile->name);
+    if (!help.empty()) finding.help = help;
+  }
+
+  const RaiseInput& input_;
+  Translation& out_;
+  diag::Sink& sink_;
+  Module& module_;
+  ir::analysis::FlowGraphs graphs_;
+  ir::analysis::CallGraph calls_;
+  ir::analysis::ModalFlow flow_;
+
+  std::vector<std::string> names_;  // "T1", `T="DRILL"`
+  std::vector<std::pair<std::string, std::uint32_t>> source_tools_;
+  std::map<std::string, std::optional<TargetWords>> targets_;  // by source words; none: reported
+  std::map<BlockId, Selection> before_;
+  std::vector<bool> selects_;       // per program: T, M6 or D in it or below
+  std::vector<Selection> entry_, exit_;
+  // The machine's setting; and where no program has an M6: there a tool that only stood ready would never come in.
+  bool tool_word_changes_ = false;
+  bool ok_ = true;
+};
+
+Mapper::Words Mapper::Look(const Block& block) const {
+  Words words;
+  words.conditional = block.skip_level != Block::kNoSkip;
+  bool elsewhere = false;
+  for (const WordId id : block.words) {
+    const Word& word = module_.words[id];
+    switch (word.op) {
+      case WordOp::kTool:
+        words.tool = &word;
+        break;
+      case WordOp::kEdge:
+        words.edge = &word;
+        break;
+      case WordOp::kToolChange:
+        words.change = true;
+        break;
+      case WordOp::kAxis:
+        words.moves = true;
+        words.moves_z = words.moves_z || word.index == kZ;
+        break;
+      case WordOp::kAxisComputed:
+        words.moves = words.moves_z = true;
+        break;
+      case WordOp::kCutterComp:
+        if (word.index == static_cast<std::uint8_t>(ir::CutterComp::kLeft) ||
+            word.index == static_cast<std::uint8_t>(ir::CutterComp::kRight))
+          words.compensation = &word;
+        break;
+      case WordOp::kWhen:
+      case WordOp::kSkipRest:
+        words.conditional = true;
+        break;
+      case WordOp::kFrame:
+      case WordOp::kReference:
+      case WordOp::kPole:
+      case WordOp::kPresetPosition:
+      case WordOp::kMachineCoords:
+        elsewhere = true;
+        break;
+      case WordOp::kCall:
+      case WordOp::kModalCall: {
+        const auto call = word.Extra<ir::CallId>();
+        if (call.Valid() && module_.calls[call].program.Valid()) words.callees.push_back(module_.calls[call].program);
+        break;
+      }
+      default:
+        break;
+    }
+  }
+  if (elsewhere) words.moves = words.moves_z = false;
+  return words;
+}
+
+int Mapper::ToolOf(const Word* word) const {
+  const ir::Expr& value = module_.exprs[word->value];
+  std::string name;
+  if (value.op == ExprOp::kText) {
+    name = fmt::format("T=\"{}\"", module_.View(StringId{value.a}));
+  } else if (const auto number = WholeNumber(module_, word->value)) {
+    name = fmt::format("T{}", *number);
+  }
+  const auto known = std::find(names_.begin(), names_.end(), name);
+  return known == names_.end() ? Selection::kMixed : static_cast<int>(known - names_.begin()) + 1;
+}
+
+int Mapper::EdgeOf(const Word* word) const {
+  const auto number = WholeNumber(module_, word->value);
+  return number ? static_cast<int>(*number) + 1 : Selection::kMixed;
+}
+
+void Mapper::NameTools() {
+  bool changes = false, tools = false;
+  for (const ProgramId program : module_.programs.Ids()) {
+    for (const BlockId id : module_.programs[program].blocks) {
+      const Block& block = module_.blocks[id];
+      const Words words = Look(block);
+      changes = changes || words.change;
+      tools = tools || words.tool != nullptr;
+      if (words.edge != nullptr && !WholeNumber(module_, words.edge->value))
+        Refuse(module_.RangeOf(block, *words.edge), "a computed edge", "");
+      if (words.tool == nullptr || ToolOf(words.tool) != Selection::kMixed) continue;
+      const ir::Expr& value = module_.exprs[words.tool->value];
+      if (value.op == ExprOp::kText) {
+        const std::string text(module_.View(StringId{value.a}));
+        names_.push_back(fmt::format("T=\"{}\"", text));
+        source_tools_.emplace_back(text, 0);
+      } else if (const auto number = WholeNumber(module_, words.tool->value)) {
+        names_.push_back(fmt::format("T{}", *number));
+        source_tools_.emplace_back(std::string(), *number);
+      } else {
+        Refuse(module_.RangeOf(block, *words.tool), "a computed tool", "");
+      }
+    }
+  }
+  tool_word_changes_ = input_.source_machine->tool_word_changes || !changes;
+  if (tools && !changes && !input_.source_machine->tool_word_changes) {
+    out_.assumptions.emplace_back(
+        "the T word of the source changes the tool by itself, since no program has an M6 (sinumerik-8.8, MD22550=0)");
+  }
+}
+
+void Mapper::FindEffects() {
+  selects_.assign(module_.programs.Size(), false);
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const ProgramId program : module_.programs.Ids()) {
+      bool selects = false;
+      for (const BlockId id : module_.programs[program].blocks) {
+        const Words words = Look(module_.blocks[id]);
+        selects = selects || words.tool != nullptr || words.edge != nullptr || words.change;
+        for (const ProgramId callee : words.callees) selects = selects || selects_[callee.value];
+      }
+      if (selects && !selects_[program.value]) {
+        selects_[program.value] = true;
+        changed = true;
+      }
+    }
+  }
+}
+
+Selection Mapper::Select(const Words& words, Selection state) const {
+  bool changes = false;
+  if (words.tool != nullptr) {
+    state.prepared = ToolOf(words.tool);
+    changes = tool_word_changes_ || words.change;
+  } else {
+    changes = words.change && !tool_word_changes_;
+  }
+  if (changes) {
+    state.tool = state.prepared;
+    state.edge = input_.source_machine->tool_activates_edge ? 2 : Selection::kMixed;
+    state.told = Selection::kNo;
+  }
+  if (words.edge != nullptr) {
+    const int edge = EdgeOf(words.edge);
+    if (edge != state.edge) state.told = Selection::kNo;
+    state.edge = edge;
+  }
+  return state;
+}
+
+Selection Mapper::Through(const Words& words, const Selection& before) const {
+  Selection state = Select(words, before);
+  if (words.moves_z) state.told = Selection::kYes;
+  for (const ProgramId callee : words.callees) {
+    const Selection& after = exit_[callee.value];
+    if (selects_[callee.value]) {
+      state = after;
+    } else if (state.told != Selection::kYes) {
+      state.told = after.told == Selection::kYes ? Selection::kYes : Join(state.told, after.told);
+    }
+  }
+  return words.conditional ? Join(before, state) : state;
+}
+
+void Mapper::Flow() {
+  entry_.assign(module_.programs.Size(), {});
+  exit_.assign(module_.programs.Size(), {});
+  std::vector<bool> called(module_.programs.Size(), false);
+  for (const ir::analysis::CallSite& site : calls_.AllSites()) {
+    if (site.callee.Valid()) called[site.callee.value] = true;
+  }
+  const Selection start{Selection::kNone, Selection::kNone, Selection::kNone, Selection::kYes};
+  for (const ProgramId program : module_.programs.Ids()) {
+    if (!called[program.value] || module_.programs[program].kind == ir::ProgramKind::kMain)
+      entry_[program.value] = start;
+  }
+  // Each part of a selection only climbs none -> value -> mixed, so this ends.
+  for (bool changed = true; changed;) {
+    changed = false;
+    const auto merge = [&](Selection& into, const Selection& from) {
+      const Selection joined = Join(into, from);
+      if (joined == into) return;
+      into = joined;
+      changed = true;
+    };
+    for (const ProgramId program : module_.programs.Ids()) {
+      const IdRange<BlockId> blocks = module_.programs[program].blocks;
+      if (blocks.Empty()) {
+        merge(exit_[program.value], entry_[program.value]);
+        continue;
+      }
+      const ir::analysis::Cfg& graph = graphs_.Of(program);
+      merge(before_[blocks[0]], entry_[program.value]);
+      bool modal = false;
+      for (const BlockId id : blocks) {
+        const Selection before = before_[id];
+        if (before.told == Selection::kNever) continue;
+        const Words words = Look(module_.blocks[id]);
+        for (const ProgramId callee : words.callees) merge(entry_[callee.value], Select(words, before));
+        const Selection after = Through(words, before);
+        for (const WordId word : module_.blocks[id].words) modal = modal || module_.words[word].op == WordOp::kModalCall;
+        for (const ir::analysis::Edge& edge : graph.Successors(id)) {
+          if (edge.to.Valid()) {
+            merge(before_[edge.to], after);
+          } else if (edge.kind == ir::analysis::EdgeKind::kComputed) {
+            for (const BlockId target : graph.ComputedTargets()) merge(before_[target], after);
+          } else if (edge.kind != ir::analysis::EdgeKind::kAlarm && edge.kind != ir::analysis::EdgeKind::kMissing) {
+            merge(exit_[program.value], after);
+          }
+        }
+      }
+      if (!modal) continue;
+      // A modal call runs behind any block of its program: its callee is entered with what is selected there.
+      for (const BlockId id : blocks) {
+        for (const WordId word : module_.blocks[id].words) {
+          const Word& call = module_.words[word];
+          if (call.op != WordOp::kModalCall || !call.Extra<ir::CallId>().Valid()) continue;
+          const ProgramId callee = module_.calls[call.Extra<ir::CallId>()].program;
+          if (!callee.Valid()) continue;
+          for (const BlockId other : blocks) merge(entry_[callee.value], before_[other]);
+        }
+      }
+    }
+  }
+}
+
+const TargetWords* Mapper::Target(int tool, int edge, const SourceRange& at) {
+  const std::string words = SourceWords(tool, edge);
+  const auto known = targets_.find(words);
+  if (known != targets_.end()) return known->second ? &*known->second : nullptr;
+  std::optional<TargetWords>& target = targets_[words];
+  const dialects::WordMapping* mapping = input_.config == nullptr ? nullptr : input_.config->FindTool(words);
+  const std::string quote = words.find('"') == std::string::npos ? "\"" : "'";
+  const std::uint32_t number = source_tools_[static_cast<std::size_t>(tool - 1)].second;
+  const std::uint32_t wish = number == 0 ? 1 : number;
+  const std::string line = fmt::format("[tools]  {0}{1}{0} = \"T{2} M6 H{2} D{2}\"", quote, words, wish);
+  if (mapping == nullptr) {
+    sink_.Report(diag::Code::kUnmappedTool, at, words).help =
+        fmt::format("add to ncport.toml, with the words of your machine:  {}", line);
+    ok_ = false;
+    return nullptr;
+  }
+  target = Parse(mapping->target);
+  if (!target) {
+    Refuse(at, fmt::format("{} as \"{}\" (no tool number)", words, mapping->target),
+           fmt::format("write it like this in ncport.toml:  {}", line));
+    return nullptr;
+  }
+  ToolUse use;
+  use.source_words = words;
+  use.target_words = mapping->target;
+  use.source_name = source_tools_[static_cast<std::size_t>(tool - 1)].first;
+  use.source_tool = number;
+  use.source_edge = edge > 0 ? static_cast<std::uint32_t>(edge - 1) : 0;
+  use.target_tool = target->tool;
+  use.target_offset = target->length.value_or(0);
+  use.target_radius = target->radius.value_or(0);
+  out_.tools.push_back(use);
+  return &*target;
+}
+
+void Mapper::Rewrite(ProgramId program) {
+  ProgramEditor editor(module_, program, "map_mill_tools");
+  ir::ExprBuilder make(module_);
+  const auto made_word = [&](WordOp op, std::uint8_t index, std::optional<std::uint32_t> value) {
+    Word word;
+    word.op = op;
+    word.index = index;
+    word.phase = ir::DefaultPhaseOf(op);
+    if (value) word.value = make.Literal(*value, ir::Type::kInt);
+    return word;
+  };
+  for (const BlockId id : module_.programs[program].blocks) {
+    const Block block = module_.blocks[id];
+    const Words words = Look(block);
+    const auto arrival = before_.find(id);
+    Selection before = arrival == before_.end() ? Selection{} : arrival->second;
+    if (before.told == Selection::kNever) before = {Selection::kMixed, Selection::kMixed, Selection::kMixed, Selection::kYes};
+    const Selection now = Select(words, before);
+    std::string call;  // words of a tool call
+    if (words.tool != nullptr || words.change) {
+      const SourceRange at =
+          words.tool != nullptr ? module_.RangeOf(block, *words.tool) : module_.RangeOf(block);
+      const bool changes = now.told == Selection::kNo && (tool_word_changes_ || words.change);
+      if (changes && now.tool <= 0) {
+        if (words.tool == nullptr)
+          Refuse(at, "M6 without one tool that stands ready on every way here", "write T and M6 in one block");
+        else
+          ok_ = false;  // a computed tool, reported above
+      } else if (changes) {
+        if (const TargetWords* target = Target(now.tool, now.edge, at)) {
+          const bool ready = words.tool == nullptr;  // called by its T word already
+          call = ready ? "M6" : target->call;
+        }
+      } else if (words.tool != nullptr && now.prepared > 0) {
+        if (const TargetWords* target = Target(now.prepared, input_.source_machine->tool_activates_edge ? 2 : 0, at))
+          call = fmt::format("T{}", target->tool);
+      }
+    }
+    // Only a change that the source's tool word makes by itself adds an M6.
+    if (words.tool != nullptr && !words.change && call.find(" M6") != std::string::npos) out_.tool_change_added = true;
+
+    std::vector<Word> kept;
+    for (const WordId word_id : block.words) {
+      const Word word = module_.words[word_id];
+      if (word.op == WordOp::kTool || word.op == WordOp::kEdge || word.op == WordOp::kToolChange) continue;
+      if (word.op == WordOp::kAxis && words.moves_z && now.told != Selection::kYes &&
+          std::none_of(kept.begin(), kept.end(), [](const Word& w) { return w.op == WordOp::kLengthOffset; })) {
+        const SourceRange at = module_.RangeOf(block, word);
+        const ir::Motion motion = flow_.At(program, id).motion;
+        if (now.tool <= 0 || now.edge <= 0) {
+          if (ok_)
+            Refuse(at, "the length of a tool that is not one on every way here",
+                   "move Z behind each tool change before the ways meet");
+        } else if (motion == ir::Motion::kArcCw || motion == ir::Motion::kArcCcw) {
+          Refuse(at, "a tool length that comes into force in an arc", "move Z in a straight line before");
+        } else if (now.edge == 1) {
+          kept.push_back(made_word(WordOp::kLengthOffset, 0, std::nullopt));
+        } else if (const TargetWords* target = Target(now.tool, now.edge, at)) {
+          if (target->length) {
+            kept.push_back(made_word(WordOp::kLengthOffset, 1, std::nullopt));
+            kept.push_back(made_word(WordOp::kLengthOffset, 0, target->length));
+          } else {
+            Refuse(at, fmt::format("{} without a length register", SourceWords(now.tool, now.edge)),
+                   "name it in the [tools] line of ncport.toml, for example H1");
+          }
+        }
+      }
+      kept.push_back(word);
+      if (word.op != WordOp::kCutterComp || words.compensation == nullptr) continue;
+      const SourceRange at = module_.RangeOf(block, word);
+      if (now.tool <= 0 || now.edge <= 0) {
+        if (ok_ || now.tool == Selection::kNone)
+          Refuse(at, now.tool == Selection::kNone ? "cutter compensation without a tool: the register of its radius is not known"
+                                                  : "cutter compensation with a tool that is not one on every way here",
+                 "write T and D before, or give each tool a program of its own");
+        continue;
+      }
+      if (now.edge == 1) {
+        kept.push_back(made_word(WordOp::kRadiusOffset, 0, 0));
+      } else if (const TargetWords* target = Target(now.tool, now.edge, at)) {
+        if (target->radius) {
+          kept.push_back(made_word(WordOp::kRadiusOffset, 0, target->radius));
+        } else {
+          Refuse(at, fmt::format("{} without a radius register", SourceWords(now.tool, now.edge)),
+                 "name it in the [tools] line of ncport.toml, for example D1");
+        }
+      }
+    }
+    if (words.edge != nullptr && now.edge != before.edge && words.tool == nullptr) {
+      const SourceRange at = module_.RangeOf(block, *words.edge);
+      const ir::CutterComp comp = flow_.Before(program, id).comp;
+      if (now.tool <= 0) {
+        Refuse(at, "an edge whose tool is not one on every way here", "an edge is a set of offsets of its tool: write T and D together");
+      } else if (comp == ir::CutterComp::kLeft || comp == ir::CutterComp::kRight) {
+        Refuse(at, "another edge while cutter compensation is on", "cancel it with G40 before");
+      } else if (now.edge > 1) {
+        Target(now.tool, now.edge, at);
+      }
+    }
+    for (const WordId word_id : block.words) {
+      const Word& word = module_.words[word_id];
+      if (word.op != WordOp::kModalCall || !word.Extra<ir::CallId>().Valid()) continue;
+      const ProgramId callee = module_.calls[word.Extra<ir::CallId>()].program;
+      if (callee.Valid() && selects_[callee.value])
+        Refuse(module_.RangeOf(block, word), "a modal call of a program that changes tools", "");
+    }
+    // The source's length lies along the axis normal to the plane, the target's along Z.
+    const ir::Plane plane = flow_.At(program, id).plane;
+    if (words.moves && now.tool != Selection::kNone && now.edge != 1 && now.told != Selection::kNever &&
+        arrival != before_.end() && (plane == ir::Plane::kZX || plane == ir::Plane::kYZ)) {
+      Refuse(module_.RangeOf(block), "a tool length along Y or X (a plane other than G17 with a tool)", "");
+    }
+
+    const bool same = kept.size() == block.words.count && words.edge == nullptr;
+    if (call.empty() && same) continue;
+    if (!call.empty()) {
+      Block made = editor.MakeBlock(id);
+      made.number = block.number;
+      made.number_digits = block.number_digits;
+      made.label = block.label;
+      made.skip_level = block.skip_level;
+      made.comments = block.comments;
+      Word text;
+      text.op = WordOp::kInert;
+      text.phase = ir::DefaultPhaseOf(WordOp::kInert);
+      text.spelling = ir::AddSpelling(module_, call, "");
+      editor.SetWords(made, {text});
+      module_.blocks[id].comments = {};
+      module_.blocks[id].label = {};
+      module_.blocks[id].number = Block::kNoNumber;
+      editor.InsertBefore(id, made);
+    }
+    if (kept.empty()) {
+      editor.Remove(id);
+    } else {
+      Block rest = module_.blocks[id];
+      editor.SetWords(rest, kept);
+      module_.blocks[id].words = rest.words;
+    }
+  }
+  editor.Apply();
+}
+
+bool Mapper::Run() {
+  NameTools();
+  FindEffects();
+  Flow();
+  for (const ProgramId program : module_.programs.Ids()) Rewrite(program);
+  return ok_;
+}
+
+}  // namespace
+
+bool MapMillTools(const RaiseInput& input, Translation& out, diag::Sink& sink) { return Mapper(input, out, sink).Run(); }
+
+}  // namespace ncport::backends::fanuc

@@ -1,0 +1,309 @@
+#include "backends/fanuc/shifts.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "backends/fanuc/message_text.h"
+#include "ir/analysis/call_graph.h"
+#include "ir/analysis/cfg.h"
+#include "ir/analysis/modal_state.h"
+#include "ir/analysis/unwritten_cells.h"
+#include "ir/builder.h"
+#include "ir/transform/linear_form.h"
+#include "ir/transform/new_local.h"
+#include "ir/transform/program_editor.h"
+
+namespace ncport::backends::fanuc {
+
+namespace {
+
+using ir::Block;
+using ir::BlockId;
+using ir::ExprId;
+using ir::FrameOp;
+using ir::Module;
+using ir::ProgramId;
+using ir::Word;
+using ir::WordId;
+using ir::WordOp;
+using ir::transform::ProgramEditor;
+
+constexpr double kInch = 25.4;
+constexpr std::uint8_t kLinearAxes = 3;
+
+const Word* FrameWord(const Module& module, BlockId id) {
+  for (const WordId word : module.blocks[id].words) {
+    if (module.words[word].op == WordOp::kFrame) return &module.words[word];
+  }
+  return nullptr;
+}
+
+bool Adds(const Word& frame) { return frame.index == static_cast<std::uint8_t>(FrameOp::kAddTranslate); }
+
+Word AxisWord(std::uint8_t axis, ExprId value) {
+  Word word;
+  word.op = WordOp::kAxis;
+  word.index = axis;
+  word.mode = ir::ValueMode::kAbsolute;
+  word.phase = ir::DefaultPhaseOf(WordOp::kAxis);
+  word.value = value;
+  return word;
+}
+
+Word Assignment(ExprId place, ExprId value) {
+  Word word;
+  word.op = WordOp::kAssign;
+  word.phase = ir::DefaultPhaseOf(WordOp::kAssign);
+  word.extra = place.value;
+  word.value = value;
+  return word;
+}
+
+}  // namespace
+
+bool ShiftsToLocal(const RaiseInput& input, Translation& out, diag::Sink& sink) {
+  Module& module = out.module;
+  ir::ExprBuilder make(module);
+  bool ok = true;
+  std::uint16_t shifted = 0;  // axes
+  std::set<std::uint32_t> holders;
+  bool adds = false;
+  for (const ProgramId program : module.programs.Ids()) {
+    for (const BlockId id : module.programs[program].blocks) {
+      const Word* frame = FrameWord(module, id);
+      if (frame == nullptr) continue;
+      holders.insert(program.value);
+      const auto refuse = [&](std::string_view what, std::string_view help = "") {
+        ok = false;
+        auto& finding =
+            sink.Report(diag::Code::kNotExpressible, module.RangeOf(module.blocks[id], *frame), what, input.profile->name);
+        if (!help.empty()) finding.help = help;
+      };
+      const auto op = static_cast<FrameOp>(frame->index);
+      if (op != FrameOp::kTranslate && op != FrameOp::kAddTranslate && op != FrameOp::kReset) {
+        refuse("a rotation, scale or mirror of the coordinates");
+        continue;
+      }
+      adds = adds || Adds(*frame);
+      // The module's programs are those of the source, and splitting puts new ones behind them.
+      if (program.value < input.source->programs.Size() && input.source->programs[program].saves_modal_state)
+        refuse("a shift in a program with SAVE, which puts that of its caller back");
+      for (const WordId word_id : module.blocks[id].words) {
+        const Word& word = module.words[word_id];
+        if (word.op != WordOp::kAxis) continue;
+        shifted = static_cast<std::uint16_t>(shifted | (1U << word.index));
+        if (word.index >= kLinearAxes) refuse("a shift of a rotary or further axis");
+        if (input.profile->IsLathe() && word.index == 0) refuse("a shift of X on a lathe");
+      }
+    }
+  }
+  if (!ok || holders.empty()) return ok;
+  if (shifted == 0) shifted = input.profile->IsLathe() ? 4 : 7;
+  const ProgramId holder{*holders.begin()};
+  if (adds && (holders.size() > 1 || module.programs[holder].kind != ir::ProgramKind::kMain)) {
+    for (const std::uint32_t program : holders) {
+      for (const BlockId id : module.programs[ProgramId{program}].blocks) {
+        const Word* frame = FrameWord(module, id);
+        if (frame == nullptr || !Adds(*frame)) continue;
+        sink.Report(diag::Code::kNotExpressible, module.RangeOf(module.blocks[id], *frame),
+                    "a shift that is added to one of another program", input.profile->name)
+            .help = "use an absolute shift (TRANS), or keep all shifts in the main program";
+      }
+    }
+    return false;
+  }
+  const ir::analysis::FlowGraphs graphs(module);
+  const ir::analysis::CallGraph calls(module);
+  const ir::analysis::ModalFlow flow(
+      module, *input.source_machine, graphs, calls,
+      {input.source_machine->start, input.config != nullptr ? input.config->entry : ir::ModalState{}});
+  std::array<ir::VariableId, kLinearAxes> sums{};
+  static constexpr std::array<std::string_view, kLinearAxes> kNames{"SHIFT_X", "SHIFT_Y", "SHIFT_Z"};
+  if (adds) {
+    for (std::uint8_t axis = 0; axis < kLinearAxes; ++axis) {
+      if (shifted >> axis & 1U) sums[axis] = ir::transform::NewLocal(module, holder, kNames[axis], ir::Type::kReal);
+    }
+  }
+  for (const std::uint32_t value : holders) {
+    const ProgramId program{value};
+    ProgramEditor editor(module, program, "shifts_to_local");
+    const IdRange<BlockId> blocks = module.programs[program].blocks;
+    bool head = true;
+    for (const BlockId id : blocks) {
+      const Block block = module.blocks[id];
+      if (head && adds && !block.words.Empty()) {
+        head = false;
+        for (std::uint8_t axis = 0; axis < kLinearAxes; ++axis) {
+          if (!sums[axis].Valid()) continue;
+          Block start = editor.MakeBlock(id);
+          editor.SetWords(start, {Assignment(make.Variable(sums[axis]), make.Literal(0))});
+          editor.InsertBefore(id, start);
+        }
+      }
+      const Word* found = FrameWord(module, id);
+      if (found == nullptr) {
+        // The source forgets its shifts at the end of the program, the target need not.
+        bool end = false;
+        for (const WordId word : block.words) end = end || module.words[word].op == WordOp::kProgramEnd;
+        if (!end || module.programs[program].kind != ir::ProgramKind::kMain) continue;
+        Word frame;
+        frame.op = WordOp::kFrame;
+        frame.index = static_cast<std::uint8_t>(FrameOp::kTranslate);
+        frame.phase = ir::DefaultPhaseOf(WordOp::kFrame);
+        frame.flags = Word::kAdded;
+        std::vector<Word> words{frame};
+        for (std::uint8_t axis = 0; axis < kLinearAxes; ++axis) {
+          if (shifted >> axis & 1U) words.push_back(AxisWord(axis, make.Literal(0)));
+        }
+        Block reset = editor.MakeBlock(id);
+        reset.flags = Block::kAdded;
+        editor.SetWords(reset, words);
+        editor.InsertBefore(id, reset);
+        continue;
+      }
+      Word frame = *found;
+      const bool add = Adds(frame);
+      const ir::ModalState state = flow.At(program, id);
+      const double factor =
+          state.units == ir::Units::kInch || state.units == ir::Units::kInchGeometry ? kInch : 1;
+      std::array<ExprId, kLinearAxes> values{};
+      std::vector<Word> others;
+      for (const WordId word_id : block.words) {
+        const Word& word = module.words[word_id];
+        if (word.op == WordOp::kAxis) values[word.index] = word.value;
+        if (word.op != WordOp::kAxis && word.op != WordOp::kFrame) others.push_back(word);
+      }
+      frame.index = static_cast<std::uint8_t>(FrameOp::kTranslate);
+      std::vector<Word> words = others;
+      words.push_back(frame);
+      bool first = true;
+      for (std::uint8_t axis = 0; axis < kLinearAxes; ++axis) {
+        if ((shifted >> axis & 1U) == 0) continue;
+        ExprId shift = values[axis];
+        if (shift.Valid() && factor != 1)
+          shift = ir::transform::ExprOf(
+              module, ir::transform::Sum(module, {}, ir::transform::FormOf(module, shift), factor));
+        if (!adds) {
+          words.push_back(AxisWord(axis, shift.Valid() ? shift : make.Literal(0)));
+          continue;
+        }
+        const ExprId sum = make.Variable(sums[axis]);
+        words.push_back(AxisWord(axis, sum));
+        if (add && !shift.Valid()) continue;
+        ExprId sum_value = shift.Valid() ? shift : make.Literal(0);
+        if (add) sum_value = make.Binary(ir::ExprOp::kAdd, make.Variable(sums[axis]), make.Unary(ir::ExprOp::kGroup, shift));
+        Block assign = editor.MakeBlock(id);
+        assign.skip_level = block.skip_level;
+        if (first) {
+          assign.label = block.label;
+          assign.number = block.number;
+          assign.number_digits = block.number_digits;
+          module.blocks[id].label = {};
+          module.blocks[id].number = Block::kNoNumber;
+          first = false;
+        }
+        editor.SetWords(assign, {Assignment(make.Variable(sums[axis]), sum_value)});
+        editor.InsertBefore(id, assign);
+      }
+      Block changed = module.blocks[id];
+      editor.SetWords(changed, words);
+      module.blocks[id].words = changed.words;
+    }
+    editor.Apply();
+  }
+  return true;
+}
+
+bool MapAlarms(const RaiseInput& input, Translation& out, diag::Sink& sink) {
+  Module& module = out.module;
+  ir::ExprBuilder make(module);
+  const dialects::Profile& profile = *input.profile;
+  std::map<std::uint32_t, std::uint32_t> numbers;
+  std::set<std::uint32_t> taken;
+  bool ok = true;
+  for (const ProgramId program : module.programs.Ids()) {
+    for (const BlockId id : module.programs[program].blocks) {
+      const Block& block = module.blocks[id];
+      for (const WordId word_id : block.words) {
+        Word word = module.words[word_id];
+        if (word.op != WordOp::kAlarm) continue;
+        const SourceRange at = module.RangeOf(block, word);
+        const auto refuse = [&](std::string_view what) {
+          ok = false;
+          sink.Report(diag::Code::kNotExpressible, at, what, profile.name);
+        };
+        ExprId value = word.value;
+        while (module.exprs[value].op == ir::ExprOp::kGroup || module.exprs[value].op == ir::ExprOp::kConvert)
+          value = ExprId{module.exprs[value].a};
+        if (module.exprs[value].op != ir::ExprOp::kLiteral) {
+          refuse("an alarm with a computed number");
+          continue;
+        }
+        const auto number = static_cast<std::uint32_t>(module.exprs[value].number);
+        bool shows = word.index == static_cast<std::uint8_t>(ir::AlarmKind::kShows);
+        if (word.index == static_cast<std::uint8_t>(ir::AlarmKind::kByNumber)) {
+          for (const ir::AlarmRange& range : input.source_machine->shown_alarms)
+            shows = shows || (number >= range.first && number <= range.last);
+        }
+        if (shows) {
+          refuse("an alarm that only shows a text");
+          continue;
+        }
+        if (!dialects::Need(profile, profile.fanuc.alarms, at, sink)) return false;
+        const auto known = numbers.find(number);
+        std::uint32_t target = 0;
+        if (known != numbers.end()) {
+          target = known->second;
+        } else {
+          // The first number is that of the guards. The last digits stay where they fit, so that the map is stable.
+          const std::uint32_t least = profile.fanuc.alarms->first + 1;
+          const std::uint32_t count = profile.fanuc.alarms->last - least + 1;
+          if (taken.size() >= count) {
+            refuse("more alarm numbers than the control has for programs");
+            continue;
+          }
+          target = least + number % 1000 % count;
+          while (taken.contains(target)) target = target == profile.fanuc.alarms->last ? least : target + 1;
+          taken.insert(target);
+          numbers[number] = target;
+          out.alarms.push_back({number, target});
+        }
+        std::string text;
+        AppendMessage(module, word.Extra<ExprId>(), text);
+        if (text.empty()) text = fmt::format("ALARM {}", number);
+        word.value = make.Literal(target, ir::Type::kInt);
+        word.extra = make.Text(text).value;
+        module.words[word_id] = word;
+      }
+    }
+  }
+  return ok;
+}
+
+bool RefuseInputs(const RaiseInput& input, const Translation& out, diag::Sink& sink) {
+  const Module& module = out.module;
+  const ir::analysis::FlowGraphs graphs(module);
+  const ir::analysis::CallGraph calls(module);
+  bool ok = true;
+  for (const ir::analysis::UnwrittenRead& read : ir::analysis::UnwrittenCells(module, graphs, calls)) {
+    const ir::Space& space = module.spaces[read.space];
+    const bool computed = read.cell == ir::analysis::UnwrittenRead::kComputed;
+    // A computed number may reach any cell of the space: all of it is pinned by its first cell.
+    const std::string first = fmt::format("{}{}", module.View(space.name), computed ? space.first : read.cell);
+    if (input.config != nullptr && input.config->FindVariable(first) != nullptr) continue;
+    const std::string name = computed ? fmt::format("{}[..] with a computed number", module.View(space.name)) : first;
+    const Block& block = module.blocks[read.block];
+    sink.Report(diag::Code::kMachineValue, module.RangeOf(block, module.words[read.word]),
+                fmt::format("{}, which may be read here before the program has written it,", name))
+        .help = fmt::format("it is an input of the operator or of another program; name its place in ncport.toml:  [variables]  {} = \"#500\"", first);
+    ok = false;
+  }
+  return ok;
+}
+
+}  // namespace ncport::backends::fanuc

@@ -1,0 +1,19 @@
+// Programmable shifts (TRANS, ATRANS) as the local coordinate shift G52, which replaces the last one (fanuc-8.4).
+#pragma once
+
+#include "backends/fanuc/raise.h"
+
+namespace ncport::backends::fanuc {
+
+/// After it each Frame word is kTranslate with every axis that the module shifts at all, in mm. Added shifts are summed
+/// up in locals of the main program; a rotation, scale or mirror, and sums across calls, are refused. Run before
+/// AbsoluteDimensions, which drops the units.
+bool ShiftsToLocal(const RaiseInput& input, Translation& out, diag::Sink& sink);
+
+/// SETAL -> #3000 with a number of the profile's range; Translation::alarms is the map.
+bool MapAlarms(const RaiseInput& input, Translation& out, diag::Sink& sink);
+
+/// Cells that are read before they are written are the operator's: refused until [variables] pins them.
+bool RefuseInputs(const RaiseInput& input, const Translation& out, diag::Sink& sink);
+
+}  // namespace ncport::backends::fanuc

@@ -41,11 +41,9 @@ Number Modulo(double a, double b) {
   if (b == 0) return Fail(Error::kDivisionByZero);
   const Number quotient = DivideInteger(a, b);
   if (!quotient.Ok()) return quotient;
-  // fmod is exact, but where the rounded quotient reached the next whole number the two must still belong together.
-  const double exact = std::fmod(a, b);
-  const double by_quotient = a - b * quotient.value;
-  if (std::fabs(by_quotient - exact) > 0.5 * std::fabs(b)) return Finite(by_quotient);
-  return Finite(exact + 0.0);
+  // By its definition, each step rounded as a control rounds it: a target without MOD computes the same steps, and a layer
+  // more or less at an exact multiple is decided alike (sinumerik-4.2).
+  return Finite(a - b * quotient.value + 0.0);
 }
 
 double Round(double value) { return std::round(value) + 0.0; }

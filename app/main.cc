@@ -151,7 +151,6 @@ class Session {
   Context context;
 
  private:
-
   const Common& common_;
   ProgramFolders folders_;
   std::vector<Input> inputs_;
@@ -385,7 +384,8 @@ void AddRunning(CLI::App& command, Running& running) {
   command.add_option("--set", running.set, "start value of a variable: NAME=VALUE")->allow_extra_args(false);
   command.add_option("--start", running.start, "position at the start, as the profile programs it: X0Y0Z0");
   command.add_option("--max-blocks", running.max_blocks, "executed blocks after which the run is stopped");
-  command.add_option("--max-cells", running.max_cells, "variables that a run may hold, each element of an array counted");
+  command.add_option("--max-cells", running.max_cells,
+                     "variables that a run may hold, each element of an array counted");
   command.add_option("--max-text-bytes", running.max_text_bytes, "memory that the texts of a run may take");
 }
 

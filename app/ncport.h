@@ -53,7 +53,7 @@ struct RunSettings : ReadSettings {
   std::vector<std::string> set;  // `R1=5`, `NAME=VALUE`
   std::string start;             // `X0Y0Z0` as the profile programs them; empty: position unknown
   std::uint64_t max_blocks = 10'000'000;
-  std::uint64_t max_cells = std::uint64_t{1} << 22U;       // memory of variables
+  std::uint64_t max_cells = std::uint64_t{1} << 22U;        // memory of variables
   std::uint64_t max_text_bytes = std::uint64_t{64} << 20U;  // memory of texts
 };
 

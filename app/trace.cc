@@ -27,9 +27,9 @@ class AlarmReporter final : public exec::EventSink {
     const auto place = [this](ir::BlockId block) {
       return block.Valid() ? module_.RangeOf(module_.blocks[block]) : SourceRange{};
     };
-    diag::Diagnostic& finding =
-        findings_.Report(diag::Code::kProgramAlarm, place(event.block),
-                         fmt::format("{}{}{}", event.code, event.code.empty() || event.text.empty() ? "" : " ", event.text));
+    diag::Diagnostic& finding = findings_.Report(
+        diag::Code::kProgramAlarm, place(event.block),
+        fmt::format("{}{}{}", event.code, event.code.empty() || event.text.empty() ? "" : " ", event.text));
     if (event.frames == nullptr) return;
     for (std::uint32_t level = event.frames->depth; level-- > 0;) {
       const ir::BlockId call = event.frames->call_blocks[level];

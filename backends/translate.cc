@@ -13,12 +13,13 @@ bool Raise(const TranslateInput& input, Translation& translation, diag::Sink& si
     default:
       break;
   }
-  sink.Report(diag::Code::kNotExpressible, SourceRange{}, "a program with loops, calls and variables", input.to->name).help =
-      "ncport flatten writes programs of literal blocks";
+  sink.Report(diag::Code::kNotExpressible, SourceRange{}, "a program with loops, calls and variables", input.to->name)
+      .help = "ncport flatten writes programs of literal blocks";
   return false;
 }
 
-std::vector<OutputFile> Print(const dialects::Profile& to, const Translation& translation, const std::vector<ProgramHeader>& headers) {
+std::vector<OutputFile> Print(const dialects::Profile& to, const Translation& translation,
+                              const std::vector<ProgramHeader>& headers) {
   switch (to.language) {
     case dialects::Language::kFanuc:
       return fanuc::Write(to, translation, headers);

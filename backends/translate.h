@@ -13,11 +13,11 @@
 namespace ncport::backends {
 
 struct TranslateInput {
-  const ir::Module* source = nullptr;            // names resolved
+  const ir::Module* source = nullptr;  // names resolved
   const dialects::Profile* from = nullptr;
-  const ir::Machine* source_machine = nullptr;   // MachineFor(*from)
+  const ir::Machine* source_machine = nullptr;  // MachineFor(*from)
   const dialects::Profile* to = nullptr;
-  const dialects::Config* config = nullptr;      // may be null
+  const dialects::Config* config = nullptr;  // may be null
 };
 
 /// Comment lines that stand behind the title of a program.
@@ -28,15 +28,16 @@ struct ProgramHeader {
 
 /// A file to write.
 struct OutputFile {
-  std::string name;                         // "4001.EIA"; empty: the text has one file only, named by the user
+  std::string name;  // "4001.EIA"; empty: the text has one file only, named by the user
   std::string text;
-  std::vector<std::uint32_t> added_lines;   // 1-based, ascending
-  std::vector<ir::BlockId> line_blocks;     // block of Translation::module a line shows; by line - 1, may be invalid
+  std::vector<std::uint32_t> added_lines;  // 1-based, ascending
+  std::vector<ir::BlockId> line_blocks;    // block of Translation::module a line shows; by line - 1, may be invalid
 };
 
 /// Rewrites the module for the target. Fails after findings: each place that has no form is one.
 bool Raise(const TranslateInput& input, Translation& translation, diag::Sink& sink);
 /// The raised module as text, with comment lines at the head of its programs.
-std::vector<OutputFile> Print(const dialects::Profile& to, const Translation& translation, const std::vector<ProgramHeader>& headers);
+std::vector<OutputFile> Print(const dialects::Profile& to, const Translation& translation,
+                              const std::vector<ProgramHeader>& headers);
 
 }  // namespace ncport::backends

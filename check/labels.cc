@@ -21,7 +21,11 @@ using ir::TargetKind;
 class LabelCheck {
  public:
   LabelCheck(const ir::Module& module, ir::ProgramId program, bool ignore_case, diag::Sink& sink)
-      : module_(module), program_(program), labels_(module, program, ignore_case), ignore_case_(ignore_case), sink_(sink) {}
+      : module_(module),
+        program_(program),
+        labels_(module, program, ignore_case),
+        ignore_case_(ignore_case),
+        sink_(sink) {}
 
   void Run() {
     for (const BlockId block : module_.programs[program_].blocks) {

@@ -307,8 +307,7 @@ Result<Config> FindConfig(std::string_view first_input, SourceFiles& files, diag
   // Findings name the file as seen from here, like the files of the command line.
   while (true) {
     const fs::path candidate = folder / "ncport.toml";
-    if (fs::is_regular_file(candidate, error))
-      return LoadConfig(fs::proximate(candidate, error).string(), files, sink);
+    if (fs::is_regular_file(candidate, error)) return LoadConfig(fs::proximate(candidate, error).string(), files, sink);
     if (!folder.has_parent_path() || folder.parent_path() == folder) return Config{};
     folder = folder.parent_path();
   }

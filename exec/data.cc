@@ -142,8 +142,7 @@ void Runner::ApplyStartValues() {
     // Nobody called, so what the reference leads to is made here.
     const std::uint32_t count = session_.linked.SlotOf(parameter).count;
     const Memory::Address cells = memory_.Push(count);
-    if (cells == Memory::kNoRoom)
-      return session_.Limit("--max-cells", diag::Code::kCellLimit, options.max_cells);
+    if (cells == Memory::kNoRoom) return session_.Limit("--max-cells", diag::Code::kCellLimit, options.max_cells);
     for (std::uint32_t k = 0; k < count; ++k) memory_[cells + k] = ZeroOf(variable.type);
     if (!arguments_[i].IsVacant())
       memory_[cells] = evaluator_.Converted(arguments_[i], variable.type, variable.string_length);

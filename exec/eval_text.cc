@@ -17,8 +17,7 @@ namespace ops = ir::ops;
 
 Value Evaluator::NewText(std::string_view text) {
   const Value value = texts_.Add(text);
-  if (texts_.Full())
-    session_.Limit("--max-text-bytes", diag::Code::kTextLimit, session_.options.max_text_bytes);
+  if (texts_.Full()) session_.Limit("--max-text-bytes", diag::Code::kTextLimit, session_.options.max_text_bytes);
   return value;
 }
 

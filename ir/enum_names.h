@@ -114,13 +114,20 @@ constexpr std::string_view NameOf(FrameOp value) {
       return "add-scale";
     case FrameOp::kAddMirror:
       return "add-mirror";
-    case FrameOp::kLocalShift: return "local-shift";
-    case FrameOp::kRotateAbout: return "rotate-about";
-    case FrameOp::kRotateEnd: return "rotate-end";
-    case FrameOp::kScaleAbout: return "scale-about";
-    case FrameOp::kScaleEnd: return "scale-end";
-    case FrameOp::kMirrorAbout: return "mirror-about";
-    case FrameOp::kMirrorEnd: return "mirror-end";
+    case FrameOp::kLocalShift:
+      return "local-shift";
+    case FrameOp::kRotateAbout:
+      return "rotate-about";
+    case FrameOp::kRotateEnd:
+      return "rotate-end";
+    case FrameOp::kScaleAbout:
+      return "scale-about";
+    case FrameOp::kScaleEnd:
+      return "scale-end";
+    case FrameOp::kMirrorAbout:
+      return "mirror-about";
+    case FrameOp::kMirrorEnd:
+      return "mirror-end";
     case FrameOp::kReset:
       return "reset";
   }
@@ -444,71 +451,131 @@ constexpr std::string_view NameOf(ReturnLevel value) {
 }
 constexpr std::string_view NameOf(Cycle value) {
   switch (value) {
-    case Cycle::kUnknown: return "unknown";
-    case Cycle::kNone: return "none";
-    case Cycle::kDrill: return "drill";
-    case Cycle::kDrillDwell: return "drill-dwell";
-    case Cycle::kPeck: return "peck";
-    case Cycle::kPeckChip: return "peck-chip";
-    case Cycle::kTap: return "tap";
-    case Cycle::kTapLeft: return "tap-left";
-    case Cycle::kRigidTap: return "rigid-tap";
-    case Cycle::kRigidTapLeft: return "rigid-tap-left";
-    case Cycle::kBoreFeed: return "bore-feed";
-    case Cycle::kBoreStop: return "bore-stop";
-    case Cycle::kBoreDwell: return "bore-dwell";
-    case Cycle::kFineBore: return "fine-bore";
-    case Cycle::kBackBore: return "back-bore";
-    case Cycle::kBoreManual: return "bore-manual";
-    case Cycle::kFacePeck: return "face-peck";
-    case Cycle::kFaceTap: return "face-tap";
-    case Cycle::kFaceRigidTap: return "face-rigid-tap";
-    case Cycle::kFaceBore: return "face-bore";
-    case Cycle::kCrossPeck: return "cross-peck";
-    case Cycle::kCrossTap: return "cross-tap";
-    case Cycle::kCrossRigidTap: return "cross-rigid-tap";
-    case Cycle::kCrossBore: return "cross-bore";
-    case Cycle::kTurn: return "turn";
-    case Cycle::kTurnThread: return "turn-thread";
-    case Cycle::kTurnFace: return "turn-face";
-    case Cycle::kFinish: return "finish";
-    case Cycle::kRoughTurn: return "rough-turn";
-    case Cycle::kRoughFace: return "rough-face";
-    case Cycle::kPattern: return "pattern";
-    case Cycle::kFaceGroove: return "face-groove";
-    case Cycle::kGroove: return "groove";
-    case Cycle::kMultiThread: return "multi-thread";
+    case Cycle::kUnknown:
+      return "unknown";
+    case Cycle::kNone:
+      return "none";
+    case Cycle::kDrill:
+      return "drill";
+    case Cycle::kDrillDwell:
+      return "drill-dwell";
+    case Cycle::kPeck:
+      return "peck";
+    case Cycle::kPeckChip:
+      return "peck-chip";
+    case Cycle::kTap:
+      return "tap";
+    case Cycle::kTapLeft:
+      return "tap-left";
+    case Cycle::kRigidTap:
+      return "rigid-tap";
+    case Cycle::kRigidTapLeft:
+      return "rigid-tap-left";
+    case Cycle::kBoreFeed:
+      return "bore-feed";
+    case Cycle::kBoreStop:
+      return "bore-stop";
+    case Cycle::kBoreDwell:
+      return "bore-dwell";
+    case Cycle::kFineBore:
+      return "fine-bore";
+    case Cycle::kBackBore:
+      return "back-bore";
+    case Cycle::kBoreManual:
+      return "bore-manual";
+    case Cycle::kFacePeck:
+      return "face-peck";
+    case Cycle::kFaceTap:
+      return "face-tap";
+    case Cycle::kFaceRigidTap:
+      return "face-rigid-tap";
+    case Cycle::kFaceBore:
+      return "face-bore";
+    case Cycle::kCrossPeck:
+      return "cross-peck";
+    case Cycle::kCrossTap:
+      return "cross-tap";
+    case Cycle::kCrossRigidTap:
+      return "cross-rigid-tap";
+    case Cycle::kCrossBore:
+      return "cross-bore";
+    case Cycle::kTurn:
+      return "turn";
+    case Cycle::kTurnThread:
+      return "turn-thread";
+    case Cycle::kTurnFace:
+      return "turn-face";
+    case Cycle::kFinish:
+      return "finish";
+    case Cycle::kRoughTurn:
+      return "rough-turn";
+    case Cycle::kRoughFace:
+      return "rough-face";
+    case Cycle::kPattern:
+      return "pattern";
+    case Cycle::kFaceGroove:
+      return "face-groove";
+    case Cycle::kGroove:
+      return "groove";
+    case Cycle::kMultiThread:
+      return "multi-thread";
   }
   return {};
 }
 constexpr std::string_view NameOf(CycleField value) {
   switch (value) {
-    case CycleField::kLevel: return "level";
-    case CycleField::kStep: return "step";
-    case CycleField::kDwell: return "dwell";
-    case CycleField::kRepeats: return "repeats";
-    case CycleField::kShiftX: return "shift-x";
-    case CycleField::kShiftY: return "shift-y";
-    case CycleField::kShiftZ: return "shift-z";
-    case CycleField::kTaper: return "taper";
-    case CycleField::kFirstBlock: return "first-block";
-    case CycleField::kLastBlock: return "last-block";
-    case CycleField::kDepth: return "depth";
-    case CycleField::kRetract: return "retract";
-    case CycleField::kAllowanceX: return "allowance-x";
-    case CycleField::kAllowanceZ: return "allowance-z";
-    case CycleField::kReliefX: return "relief-x";
-    case CycleField::kReliefZ: return "relief-z";
-    case CycleField::kPasses: return "passes";
-    case CycleField::kStepX: return "step-x";
-    case CycleField::kStepZ: return "step-z";
-    case CycleField::kHeight: return "height";
-    case CycleField::kFirstDepth: return "first-depth";
-    case CycleField::kLeastDepth: return "least-depth";
-    case CycleField::kFinishDepth: return "finish-depth";
-    case CycleField::kForm: return "form";
-    case CycleField::kMethod: return "method";
-    case CycleField::kAngle: return "angle";
+    case CycleField::kLevel:
+      return "level";
+    case CycleField::kStep:
+      return "step";
+    case CycleField::kDwell:
+      return "dwell";
+    case CycleField::kRepeats:
+      return "repeats";
+    case CycleField::kShiftX:
+      return "shift-x";
+    case CycleField::kShiftY:
+      return "shift-y";
+    case CycleField::kShiftZ:
+      return "shift-z";
+    case CycleField::kTaper:
+      return "taper";
+    case CycleField::kFirstBlock:
+      return "first-block";
+    case CycleField::kLastBlock:
+      return "last-block";
+    case CycleField::kDepth:
+      return "depth";
+    case CycleField::kRetract:
+      return "retract";
+    case CycleField::kAllowanceX:
+      return "allowance-x";
+    case CycleField::kAllowanceZ:
+      return "allowance-z";
+    case CycleField::kReliefX:
+      return "relief-x";
+    case CycleField::kReliefZ:
+      return "relief-z";
+    case CycleField::kPasses:
+      return "passes";
+    case CycleField::kStepX:
+      return "step-x";
+    case CycleField::kStepZ:
+      return "step-z";
+    case CycleField::kHeight:
+      return "height";
+    case CycleField::kFirstDepth:
+      return "first-depth";
+    case CycleField::kLeastDepth:
+      return "least-depth";
+    case CycleField::kFinishDepth:
+      return "finish-depth";
+    case CycleField::kForm:
+      return "form";
+    case CycleField::kMethod:
+      return "method";
+    case CycleField::kAngle:
+      return "angle";
   }
   return {};
 }

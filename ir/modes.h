@@ -52,43 +52,70 @@ enum class Cycle : std::uint8_t {
   kUnknown,
   kNone,
   // Holes along the axis normal to the plane.
-  kDrill, kDrillDwell, kPeck, kPeckChip, kTap, kTapLeft, kRigidTap, kRigidTapLeft,
-  kBoreFeed,        // feed out
-  kBoreStop,        // spindle stands on the way out
-  kBoreDwell,       // dwell, feed out
-  kFineBore,        // oriented, shifted away from the wall
+  kDrill,
+  kDrillDwell,
+  kPeck,
+  kPeckChip,
+  kTap,
+  kTapLeft,
+  kRigidTap,
+  kRigidTapLeft,
+  kBoreFeed,   // feed out
+  kBoreStop,   // spindle stands on the way out
+  kBoreDwell,  // dwell, feed out
+  kFineBore,   // oriented, shifted away from the wall
   kBackBore,
-  kBoreManual,      // the operator lifts
+  kBoreManual,  // the operator lifts
   // Holes of lathes, along Z and along X.
-  kFacePeck, kFaceTap, kFaceRigidTap, kFaceBore,
-  kCrossPeck, kCrossTap, kCrossRigidTap, kCrossBore,
+  kFacePeck,
+  kFaceTap,
+  kFaceRigidTap,
+  kFaceBore,
+  kCrossPeck,
+  kCrossTap,
+  kCrossRigidTap,
+  kCrossBore,
   // Turning: one cut out and back.
-  kTurn, kTurnThread, kTurnFace,
+  kTurn,
+  kTurnThread,
+  kTurnFace,
   // Turning: a contour or a groove at once.
-  kFinish, kRoughTurn, kRoughFace, kPattern, kFaceGroove, kGroove, kMultiThread,
+  kFinish,
+  kRoughTurn,
+  kRoughFace,
+  kPattern,
+  kFaceGroove,
+  kGroove,
+  kMultiThread,
 };
 /// What a word of a cycle means, in lengths (mm) unless said otherwise.
 enum class CycleField : std::uint8_t {
-  kLevel,           // R: level where the feed begins; incremental under incremental distance
-  kStep,            // Q: peck, or shift of boring
-  kDwell,           // P: seconds
-  kRepeats,         // K, L: count
-  kShiftX, kShiftY, kShiftZ,  // I J K
-  kTaper,           // radius difference start - end
-  kFirstBlock, kLastBlock,    // block numbers of the contour
-  kDepth,           // of one cut, radius
-  kRetract,         // radius
-  kAllowanceX, kAllowanceZ,   // finishing allowance; X as the axis is programmed
-  kReliefX, kReliefZ,         // stock of the pattern cycle; X as radius
-  kPasses,          // count
-  kStepX, kStepZ,   // of grooving; X as radius
-  kHeight,          // of the thread, radius
-  kFirstDepth,      // of the thread's first cut, radius
+  kLevel,    // R: level where the feed begins; incremental under incremental distance
+  kStep,     // Q: peck, or shift of boring
+  kDwell,    // P: seconds
+  kRepeats,  // K, L: count
+  kShiftX,
+  kShiftY,
+  kShiftZ,  // I J K
+  kTaper,   // radius difference start - end
+  kFirstBlock,
+  kLastBlock,  // block numbers of the contour
+  kDepth,      // of one cut, radius
+  kRetract,    // radius
+  kAllowanceX,
+  kAllowanceZ,  // finishing allowance; X as the axis is programmed
+  kReliefX,
+  kReliefZ,  // stock of the pattern cycle; X as radius
+  kPasses,   // count
+  kStepX,
+  kStepZ,       // of grooving; X as radius
+  kHeight,      // of the thread, radius
+  kFirstDepth,  // of the thread's first cut, radius
   kLeastDepth,
   kFinishDepth,
-  kForm,            // six digits: finishing passes, run-out, angle
-  kMethod,          // infeed
-  kAngle,           // degrees
+  kForm,    // six digits: finishing passes, run-out, angle
+  kMethod,  // infeed
+  kAngle,   // degrees
 };
 
 /// Settable work offset: `number` as the source programs it (54, 505, 0 = none), `extension` for G54.1 P.

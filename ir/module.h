@@ -25,7 +25,7 @@ struct Module {
   Store<BlockId, Block> blocks;
   Store<WordId, Word> words;
   Store<ExprId, Expr> exprs;
-  std::vector<ExprId> expr_items;            // entries of list expressions, ExprItemId
+  std::vector<ExprId> expr_items;  // entries of list expressions, ExprItemId
   Store<VariableId, Variable> variables;
   Store<SpaceId, Space> spaces;
   Store<SystemId, System> systems;
@@ -45,7 +45,7 @@ struct Module {
   std::vector<StringId> axis_names;             // of axes from kFirstNamedAxis on
   std::vector<StringId> file_names;             // FileId -> name, for dumps and traces
 
-  std::vector<ExprPlace> expr_places;           // beside `exprs` (same index): for messages only
+  std::vector<ExprPlace> expr_places;  // beside `exprs` (same index): for messages only
   /// Spelling of a literal with NumberFormat::kAsText, by Expr::count index; entry 0 unused.
   std::vector<StringId> literal_texts{StringId{}};
 

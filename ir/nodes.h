@@ -72,22 +72,31 @@ enum class ValueMode : std::uint8_t {
   kAbsoluteRadius,       // RAC()
   kIncrementalRadius,    // RIC()
   kQuick,                // QU(): output of the function does not wait; no effect on a trace
-  kStep,                 // incremental from the last position, not converted by the diameter mode: I J K from the start point
+  kStep,  // incremental from the last position, not converted by the diameter mode: I J K from the start point
 };
 
 enum class ChamferKind : std::uint8_t { kLength, kLeg, kRound, kRoundModal };
 enum class ReferenceKind : std::uint8_t { kReference, kSecondReference, kFixedPoint, kFromReference };
 enum class PoleBase : std::uint8_t { kLastPosition, kWorkpieceZero, kLastPole };
 enum class FrameOp : std::uint8_t {
-  kTranslate, kRotate, kScale, kMirror,          // absolute: replace the whole programmable frame
-  kAddTranslate, kAddRotate, kAddScale, kAddMirror,
+  kTranslate,
+  kRotate,
+  kScale,
+  kMirror,  // absolute: replace the whole programmable frame
+  kAddTranslate,
+  kAddRotate,
+  kAddScale,
+  kAddMirror,
   kReset,
-  // Layers that stand beside each other, in this order from the outside: shift, rotation, scale, mirror. Each word replaces its
-  // own layer. Axis words are the shift, or the centre; a missing centre is the present position.
-  kLocalShift,                                   // named axes only; 0 takes it back
-  kRotateAbout, kRotateEnd,                      // in the plane
-  kScaleAbout, kScaleEnd,                        // factors: FrameFactor words
-  kMirrorAbout, kMirrorEnd,                      // named axes
+  // Layers that stand beside each other, in this order from the outside: shift, rotation, scale, mirror. Each word
+  // replaces its own layer. Axis words are the shift, or the centre; a missing centre is the present position.
+  kLocalShift,  // named axes only; 0 takes it back
+  kRotateAbout,
+  kRotateEnd,  // in the plane
+  kScaleAbout,
+  kScaleEnd,  // factors: FrameFactor words
+  kMirrorAbout,
+  kMirrorEnd,  // named axes
 };
 /// kByNumber: Machine::shown_alarms decides when the number is known.
 enum class AlarmKind : std::uint8_t { kStops, kShows, kByNumber };
@@ -100,10 +109,10 @@ struct NumberFormat {
   std::uint8_t decimals = 0;    // digits behind the point
   std::uint8_t flags = 0;       // NumberFormat::k*
 
-  static constexpr std::uint8_t kPoint = 1;      // a decimal point was written
-  static constexpr std::uint8_t kPlusSign = 2;   // `+` was written
-  static constexpr std::uint8_t kAsText = 4;     // exponent, hex, many digits: Expr::b of a Text twin holds the spelling
-  static constexpr std::uint8_t kComputed = 8;   // not from a source: decimals are chosen by the printer
+  static constexpr std::uint8_t kPoint = 1;     // a decimal point was written
+  static constexpr std::uint8_t kPlusSign = 2;  // `+` was written
+  static constexpr std::uint8_t kAsText = 4;    // exponent, hex, many digits: Expr::b of a Text twin holds the spelling
+  static constexpr std::uint8_t kComputed = 8;  // not from a source: decimals are chosen by the printer
   constexpr bool operator==(const NumberFormat&) const = default;
 };
 
@@ -111,13 +120,13 @@ struct NumberFormat {
 struct Expr {
   ExprOp op = ExprOp::kLiteral;
   Type type = Type::kNone;
-  std::uint8_t flags = 0;     // Expr::k*
-  NumberFormat format;        // kLiteral
-  std::uint16_t count = 0;    // kList: number of entries; kLiteral with kAsText: see Module::literal_texts
+  std::uint8_t flags = 0;   // Expr::k*
+  NumberFormat format;      // kLiteral
+  std::uint16_t count = 0;  // kList: number of entries; kLiteral with kAsText: see Module::literal_texts
   union {
-    double number;            // kLiteral; BOOL as 0 and 1, CHAR as its code
+    double number;          // kLiteral; BOOL as 0 and 1, CHAR as its code
     __extension__ struct {  // anonymous structs are no ISO C++; g++ and clang have them
-      std::uint32_t a, b;     // see the comments in nodes.def; kList: b = first entry in Module::expr_items
+      std::uint32_t a, b;   // see the comments in nodes.def; kList: b = first entry in Module::expr_items
     };
   };
 
@@ -137,15 +146,15 @@ static_assert(sizeof(Expr) == 16);
 /// One word of a block, 24 bytes.
 struct Word {
   WordOp op = WordOp::kVerbatim;
-  std::uint8_t index = 0;                // axis, spindle, mode, kind: see nodes.def
-  ValueMode mode = ValueMode::kModal;    // dimension words
+  std::uint8_t index = 0;              // axis, spindle, mode, kind: see nodes.def
+  ValueMode mode = ValueMode::kModal;  // dimension words
   Phase phase = Phase::kImmediate;
-  std::uint8_t flags = 0;                // Word::k*
-  std::uint8_t digits = 0;               // digits of a code as written (G01 = 2), 0 = as the table spells it
-  std::uint16_t spelling = 0;            // Module::spellings: text of the table row and its card rule; 0 = none
+  std::uint8_t flags = 0;      // Word::k*
+  std::uint8_t digits = 0;     // digits of a code as written (G01 = 2), 0 = as the table spells it
+  std::uint16_t spelling = 0;  // Module::spellings: text of the table row and its card rule; 0 = none
   ExprId value;
-  std::uint32_t extra = Id<void>::kNone; // see nodes.def
-  std::uint32_t begin = 0;               // byte offset in the source line
+  std::uint32_t extra = Id<void>::kNone;  // see nodes.def
+  std::uint32_t begin = 0;                // byte offset in the source line
   std::uint32_t length = 0;
 
   // Flags.
@@ -154,8 +163,8 @@ struct Word {
   static constexpr std::uint8_t kRoundsValue = 4;     // the value passes to the address through Machine::word_error
   static constexpr std::uint8_t kAdded = 8;           // made by a pass, stands in the report
   static constexpr std::uint8_t kFreezes = 16;        // SpeedMode: the present speed stays in force (G97)
-  static constexpr std::uint8_t kIncrements = 32;     // the value counts units that the machine's increment and the modes in force
-                                                      // decide (a number without decimal point, milliseconds)
+  static constexpr std::uint8_t kIncrements = 32;  // the value counts units that the machine's increment and the modes
+                                                   // in force decide (a number without decimal point, milliseconds)
 
   /// Typed view of `extra`.
   template <class IdType>
@@ -174,31 +183,32 @@ struct Block {
   OriginId origin;
   IdRange<WordId> words;
   IdRange<CommentId> comments;
-  std::uint32_t number = kNoNumber;     // N word
-  StringId label;                       // as written; invalid = none
-  BlockId link;                         // structure marks: the partner that control goes to (see structure.h)
-  std::uint16_t indent = 0;             // leading blanks as written
-  std::uint8_t number_digits = 0;       // digits of the N word as written
-  std::uint8_t skip_level = kNoSkip;    // leading `/`
-  std::uint8_t flags = 0;               // Block::k*
+  std::uint32_t number = kNoNumber;   // N word
+  StringId label;                     // as written; invalid = none
+  BlockId link;                       // structure marks: the partner that control goes to (see structure.h)
+  std::uint16_t indent = 0;           // leading blanks as written
+  std::uint8_t number_digits = 0;     // digits of the N word as written
+  std::uint8_t skip_level = kNoSkip;  // leading `/`
+  std::uint8_t flags = 0;             // Block::k*
 
-  static constexpr std::uint8_t kMainBlock = 1;     // `:10` instead of `N10`
-  static constexpr std::uint8_t kSkipDigit = 2;     // the level was written (`/0`)
-  static constexpr std::uint8_t kAdded = 4;         // made by a pass (guard, safety line, frame of a tool change)
-  static constexpr std::uint8_t kRefused = 8;       // holds a finding: never executed
+  static constexpr std::uint8_t kMainBlock = 1;  // `:10` instead of `N10`
+  static constexpr std::uint8_t kSkipDigit = 2;  // the level was written (`/0`)
+  static constexpr std::uint8_t kAdded = 4;      // made by a pass (guard, safety line, frame of a tool change)
+  static constexpr std::uint8_t kRefused = 8;    // holds a finding: never executed
 };
 
 /// Where a block came from. `via` leads to the call or the pass that made this copy.
 struct Origin {
   FileId file;
-  std::uint32_t line = 0;     // 1-based; 0 = made by the compiler
+  std::uint32_t line = 0;  // 1-based; 0 = made by the compiler
   OriginId via;
-  std::uint32_t turn = 0;     // turn of the loop that made this copy
-  StringId pass;              // pass that made it; invalid = the frontend
+  std::uint32_t turn = 0;  // turn of the loop that made this copy
+  StringId pass;           // pass that made it; invalid = the frontend
 };
 
 enum class CommentPlace : std::uint8_t { kOwnLine, kBeforeWord, kEndOfBlock };
-/// Text without the language's marks. `word`: index inside the block for kBeforeWord. `gap`: blanks before it as written.
+/// Text without the language's marks. `word`: index inside the block for kBeforeWord. `gap`: blanks before it as
+/// written.
 struct Comment {
   StringId text;
   CommentPlace place = CommentPlace::kOwnLine;
@@ -210,20 +220,20 @@ enum class Scope : std::uint8_t { kLocal, kParameter, kProgram /* main program, 
 
 /// A named variable. Arrays have 1 to 3 dimensions; a STRING has its length besides.
 struct Variable {
-  StringId name;               // as written in its definition
+  StringId name;  // as written in its definition
   Type type = Type::kReal;
   Scope scope = Scope::kLocal;
   bool by_reference = false;
   std::uint8_t dimension_count = 0;
-  std::uint8_t definition = 0;               // 0: first name of its DEF block, else it follows one
+  std::uint8_t definition = 0;  // 0: first name of its DEF block, else it follows one
   std::uint32_t dimensions[3] = {0, 0, 0};
   std::uint32_t string_length = 0;
-  ProgramId owner;                           // kLocal, kParameter, kProgram
-  ExprId initial;                            // scalar start value or default argument; none = the type's zero
-  AssignListId initial_list;                 // SET(...) or (..) of an array
-  ExprId lower_limit, upper_limit;           // LLI, ULI
+  ProgramId owner;                  // kLocal, kParameter, kProgram
+  ExprId initial;                   // scalar start value or default argument; none = the type's zero
+  AssignListId initial_list;        // SET(...) or (..) of an array
+  ExprId lower_limit, upper_limit;  // LLI, ULI
   std::uint32_t line = 0;
-  std::uint32_t begin = 0, length = 0;       // place of the name in that line
+  std::uint32_t begin = 0, length = 0;  // place of the name in that line
   FileId file;
 };
 
@@ -233,7 +243,7 @@ enum class StartValue : std::uint8_t { kZero, kVacant, kKept, kUnknown };
 
 /// A numbered variable space (R0.., #1.., L0..): cells `first` to `last`.
 struct Space {
-  StringId name;               // "R", "#", "L"
+  StringId name;  // "R", "#", "L"
   std::uint32_t first = 0;
   std::uint32_t last = 0;
   Type type = Type::kReal;
@@ -244,45 +254,48 @@ struct Space {
 
 /// A system variable by its name or number, with what is known of it.
 enum class SystemKind : std::uint8_t {
-  kEnvironment,            // only the machine knows: Environment
+  kEnvironment,  // only the machine knows: Environment
   kPi,
-  kProgrammedPosition,     // $P_EP[axis], #5001..: end point of the last block in workpiece coordinates
-  kMachinePosition,        // #5021..
-  kActiveFeed, kActiveSpeed, kActiveTool, kActiveEdge,
-  kModalGroup,             // $P_GG[n], #4001..: code of the group, by Machine::groups
-  kModalCallActive,        // $P_MC
-  kPlaneAxis,              // $P_AXN1..3: abscissa, ordinate, applicate of the active plane
-  kWasProgrammed,          // $P_SUBPAR[n]
-  kProgramLevel,           // $P_STACK
-  kUserMemory,             // $AC_MARKER[n], $AC_PARAM[n]: cells that programs write and read
+  kProgrammedPosition,  // $P_EP[axis], #5001..: end point of the last block in workpiece coordinates
+  kMachinePosition,     // #5021..
+  kActiveFeed,
+  kActiveSpeed,
+  kActiveTool,
+  kActiveEdge,
+  kModalGroup,       // $P_GG[n], #4001..: code of the group, by Machine::groups
+  kModalCallActive,  // $P_MC
+  kPlaneAxis,        // $P_AXN1..3: abscissa, ordinate, applicate of the active plane
+  kWasProgrammed,    // $P_SUBPAR[n]
+  kProgramLevel,     // $P_STACK
+  kUserMemory,       // $AC_MARKER[n], $AC_PARAM[n]: cells that programs write and read
 };
 struct System {
   StringId name;
   SystemKind kind = SystemKind::kEnvironment;
   Type type = Type::kReal;
   bool writable = false;
-  std::uint32_t number = 0;   // first number for languages that number them
+  std::uint32_t number = 0;  // first number for languages that number them
 };
 
 /// How a jump looks for its target inside its program.
 enum class Search : std::uint8_t {
-  kForward,              // from the next block to the end
-  kBackward,             // from the jump block to the start
-  kForwardThenBackward,  // to the end, then from the jump block toward the start
-  kForwardThenFromStart, // to the end, then from the start downward
-  kBackwardThenForward,  // repeated parts
+  kForward,               // from the next block to the end
+  kBackward,              // from the jump block to the start
+  kForwardThenBackward,   // to the end, then from the jump block toward the start
+  kForwardThenFromStart,  // to the end, then from the start downward
+  kBackwardThenForward,   // repeated parts
 };
 enum class TargetKind : std::uint8_t { kLabel, kNumber, kMainNumber, kExpression, kProgramStart };
 struct Target {
   TargetKind kind = TargetKind::kLabel;
   StringId label;
   std::uint32_t number = 0;
-  ExprId expr;               // kExpression: number or text
+  ExprId expr;  // kExpression: number or text
 };
 struct Jump {
   Target target;
   Search search = Search::kForward;
-  bool quiet = false;        // no alarm when nothing is found (GOTOC)
+  bool quiet = false;  // no alarm when nothing is found (GOTOC)
 };
 /// One arm of a Switch; an arm without value is the default and stands last.
 struct SwitchArm {
@@ -295,42 +308,42 @@ struct Switch {
 };
 
 enum class CallForm : std::uint8_t {
-  kName,       // SUB1(..), M98 P, G65 P: the program by its name
-  kText,       // CALL "name", CALL var: name by expression
-  kBlockRange, // CALL .. BLOCK a TO b
-  kPath,       // PCALL path
-  kExternal,   // EXTCALL: from external memory
+  kName,        // SUB1(..), M98 P, G65 P: the program by its name
+  kText,        // CALL "name", CALL var: name by expression
+  kBlockRange,  // CALL .. BLOCK a TO b
+  kPath,        // PCALL path
+  kExternal,    // EXTCALL: from external memory
 };
 /// One argument. Positional ones count from 0; letters keep their letter. A missing one has no value.
 struct Arg {
   ExprId value;
   std::uint16_t position = 0;
   char letter = 0;
-  bool increments = false;       // as Word::kIncrements
+  bool increments = false;  // as Word::kIncrements
 };
 struct Call {
   CallForm form = CallForm::kName;
-  bool has_brackets = false;     // `SUB()` and `SUB` differ in print
-  bool new_level = true;         // false: the callee shares the locals of the caller (M98)
-  StringId name;                 // as written
-  ProgramId program;             // after name resolution; invalid = not found
-  ExprId name_expr;              // kText
+  bool has_brackets = false;  // `SUB()` and `SUB` differ in print
+  bool new_level = true;      // false: the callee shares the locals of the caller (M98)
+  StringId name;              // as written
+  ProgramId program;          // after name resolution; invalid = not found
+  ExprId name_expr;           // kText
   IdRange<ArgId> args;
-  ExprId passes;                 // none = 1
-  Target from, to;               // kBlockRange; kName with `from_block`: runs from `from` on
-  bool from_block = false;       // no name: a block of the same program
+  ExprId passes;            // none = 1
+  Target from, to;          // kBlockRange; kName with `from_block`: runs from `from` on
+  bool from_block = false;  // no name: a block of the same program
 };
-/// `single`: only the block of `first`. `has_last`: up to `last`. Else up to the block before the RepeatPart word, or up
-/// to the first block labelled `last.label` (an end label of the language) if one stands before that.
+/// `single`: only the block of `first`. `has_last`: up to `last`. Else up to the block before the RepeatPart word, or
+/// up to the first block labelled `last.label` (an end label of the language) if one stands before that.
 struct Part {
   Target first, last;
-  bool single = false;           // REPEATB
+  bool single = false;  // REPEATB
   bool has_last = false;
 };
 struct For {
-  ExprId variable;               // place that counts
-  ExprId end;                    // inclusive
-  ExprId step;                   // none = 1
+  ExprId variable;  // place that counts
+  ExprId end;       // inclusive
+  ExprId step;      // none = 1
 };
 struct Extern {
   StringId name;
@@ -346,29 +359,29 @@ struct ExternParam {
 };
 /// Values for consecutive elements (SET, REP, bracket list). An invalid entry leaves its element unchanged.
 struct AssignList {
-  ExprId place;                  // first element; invalid = the whole array from its start
+  ExprId place;  // first element; invalid = the whole array from its start
   IdRange<ExprItemId> values;
-  bool repeat = false;           // REP: one value for `count` elements (none = to the end)
+  bool repeat = false;  // REP: one value for `count` elements (none = to the end)
   ExprId count;
 };
 
 enum class ProgramKind : std::uint8_t { kMain, kSub };
 struct Program {
-  StringId name;                 // as the language calls it, without file marks
+  StringId name;  // as the language calls it, without file marks
   ProgramKind kind = ProgramKind::kSub;
   FileId file;
   IdRange<BlockId> blocks;
-  IdRange<VariableId> parameters;    // in order
-  bool saves_modal_state = false;    // SAVE
-  bool has_header = false;           // PROC or O line
-  bool library = false;              // a standard cycle that ncport brings along
+  IdRange<VariableId> parameters;  // in order
+  bool saves_modal_state = false;  // SAVE
+  bool has_header = false;         // PROC or O line
+  bool library = false;            // a standard cycle that ncport brings along
   std::uint32_t header_line = 0;
 };
 
 /// What a table row of a language calls a word, and the card row it stands in.
 struct Spelling {
-  StringId text;                 // "G1", "DIAMON"
-  StringId rule;                 // "sinumerik-8.2"
+  StringId text;  // "G1", "DIAMON"
+  StringId rule;  // "sinumerik-8.2"
 };
 
 // --- names of the closed lists, for dumps and messages

@@ -171,7 +171,7 @@ class Mapper {
   std::vector<std::pair<std::string, std::uint32_t>> source_tools_;
   std::map<std::string, std::optional<TargetWords>> targets_;  // by source words; none: reported
   std::map<BlockId, Selection> before_;
-  std::vector<bool> selects_;       // per program: T, M6 or D in it or below
+  std::vector<bool> selects_;  // per program: T, M6 or D in it or below
   std::vector<Selection> entry_, exit_;
   // The machine's setting; and where no program has an M6: there a tool that only stood ready would never come in.
   bool tool_word_changes_ = false;
@@ -369,7 +369,8 @@ void Mapper::Flow() {
         const Words words = Look(module_.blocks[id]);
         for (const ProgramId callee : words.callees) merge(entry_[callee.value], Select(words, before));
         const Selection after = Through(words, before);
-        for (const WordId word : module_.blocks[id].words) modal = modal || module_.words[word].op == WordOp::kModalCall;
+        for (const WordId word : module_.blocks[id].words)
+          modal = modal || module_.words[word].op == WordOp::kModalCall;
         for (const ir::analysis::Edge& edge : graph.Successors(id)) {
           if (edge.to.Valid()) {
             merge(before_[edge.to], after);
@@ -446,12 +447,12 @@ void Mapper::Rewrite(ProgramId program) {
     const Words words = Look(block);
     const auto arrival = before_.find(id);
     Selection before = arrival == before_.end() ? Selection{} : arrival->second;
-    if (before.told == Selection::kNever) before = {Selection::kMixed, Selection::kMixed, Selection::kMixed, Selection::kYes};
+    if (before.told == Selection::kNever)
+      before = {Selection::kMixed, Selection::kMixed, Selection::kMixed, Selection::kYes};
     const Selection now = Select(words, before);
     std::string call;  // words of a tool call
     if (words.tool != nullptr || words.change) {
-      const SourceRange at =
-          words.tool != nullptr ? module_.RangeOf(block, *words.tool) : module_.RangeOf(block);
+      const SourceRange at = words.tool != nullptr ? module_.RangeOf(block, *words.tool) : module_.RangeOf(block);
       const bool changes = now.told == Selection::kNo && (tool_word_changes_ || words.change);
       if (changes && now.tool <= 0) {
         if (words.tool == nullptr)
@@ -502,8 +503,10 @@ void Mapper::Rewrite(ProgramId program) {
       const SourceRange at = module_.RangeOf(block, word);
       if (now.tool <= 0 || now.edge <= 0) {
         if (ok_ || now.tool == Selection::kNone)
-          Refuse(at, now.tool == Selection::kNone ? "cutter compensation without a tool: the register of its radius is not known"
-                                                  : "cutter compensation with a tool that is not one on every way here",
+          Refuse(at,
+                 now.tool == Selection::kNone
+                     ? "cutter compensation without a tool: the register of its radius is not known"
+                     : "cutter compensation with a tool that is not one on every way here",
                  "write T and D before, or give each tool a program of its own");
         continue;
       }
@@ -522,7 +525,8 @@ void Mapper::Rewrite(ProgramId program) {
       const SourceRange at = module_.RangeOf(block, *words.edge);
       const ir::CutterComp comp = flow_.Before(program, id).comp;
       if (now.tool <= 0) {
-        Refuse(at, "an edge whose tool is not one on every way here", "an edge is a set of offsets of its tool: write T and D together");
+        Refuse(at, "an edge whose tool is not one on every way here",
+               "an edge is a set of offsets of its tool: write T and D together");
       } else if (comp == ir::CutterComp::kLeft || comp == ir::CutterComp::kRight) {
         Refuse(at, "another edge while cutter compensation is on", "cancel it with G40 before");
       } else if (now.edge > 1) {
@@ -583,6 +587,8 @@ bool Mapper::Run() {
 
 }  // namespace
 
-bool MapMillTools(const RaiseInput& input, Translation& out, diag::Sink& sink) { return Mapper(input, out, sink).Run(); }
+bool MapMillTools(const RaiseInput& input, Translation& out, diag::Sink& sink) {
+  return Mapper(input, out, sink).Run();
+}
 
 }  // namespace ncport::backends::fanuc

@@ -1,5 +1,6 @@
-// Tools of a machining centre: `T1 M6`, the length register with the first Z word behind it (G43 H), the radius register
-// in the blocks that switch compensation on (D). The source's edge D is both at once (sinumerik-8.8, hazards#2).
+// Tools of a machining centre: `T1 M6`, the length register with the first Z word behind it (G43 H), the radius
+// register in the blocks that switch compensation on (D). The source's edge D is both at once (sinumerik-8.8,
+// hazards#2).
 #pragma once
 
 #include "backends/fanuc/raise.h"

@@ -206,7 +206,10 @@ bool CheckLegal(const RaiseInput& input, Translation& out, diag::Sink& sink) {
             } else {
               const auto state = static_cast<ir::SpindleState>(word.extra);
               const auto& words = profile.spindle;
-              need(state == ir::SpindleState::kCw ? words.cw : state == ir::SpindleState::kCcw ? words.ccw : words.stop, word);
+              need(state == ir::SpindleState::kCw    ? words.cw
+                   : state == ir::SpindleState::kCcw ? words.ccw
+                                                     : words.stop,
+                   word);
             }
             break;
           case WordOp::kDwellSeconds:

@@ -80,8 +80,8 @@ bool ShiftsToLocal(const RaiseInput& input, Translation& out, diag::Sink& sink) 
       holders.insert(program.value);
       const auto refuse = [&](std::string_view what, std::string_view help = "") {
         ok = false;
-        auto& finding =
-            sink.Report(diag::Code::kNotExpressible, module.RangeOf(module.blocks[id], *frame), what, input.profile->name);
+        auto& finding = sink.Report(diag::Code::kNotExpressible, module.RangeOf(module.blocks[id], *frame), what,
+                                    input.profile->name);
         if (!help.empty()) finding.help = help;
       };
       const auto op = static_cast<FrameOp>(frame->index);
@@ -169,8 +169,7 @@ bool ShiftsToLocal(const RaiseInput& input, Translation& out, diag::Sink& sink) 
       Word frame = *found;
       const bool add = Adds(frame);
       const ir::ModalState state = flow.At(program, id);
-      const double factor =
-          state.units == ir::Units::kInch || state.units == ir::Units::kInchGeometry ? kInch : 1;
+      const double factor = state.units == ir::Units::kInch || state.units == ir::Units::kInchGeometry ? kInch : 1;
       std::array<ExprId, kLinearAxes> values{};
       std::vector<Word> others;
       for (const WordId word_id : block.words) {
@@ -186,8 +185,8 @@ bool ShiftsToLocal(const RaiseInput& input, Translation& out, diag::Sink& sink) 
         if ((shifted >> axis & 1U) == 0) continue;
         ExprId shift = values[axis];
         if (shift.Valid() && factor != 1)
-          shift = ir::transform::ExprOf(
-              module, ir::transform::Sum(module, {}, ir::transform::FormOf(module, shift), factor));
+          shift = ir::transform::ExprOf(module,
+                                        ir::transform::Sum(module, {}, ir::transform::FormOf(module, shift), factor));
         if (!adds) {
           words.push_back(AxisWord(axis, shift.Valid() ? shift : make.Literal(0)));
           continue;
@@ -196,7 +195,8 @@ bool ShiftsToLocal(const RaiseInput& input, Translation& out, diag::Sink& sink) 
         words.push_back(AxisWord(axis, sum));
         if (add && !shift.Valid()) continue;
         ExprId sum_value = shift.Valid() ? shift : make.Literal(0);
-        if (add) sum_value = make.Binary(ir::ExprOp::kAdd, make.Variable(sums[axis]), make.Unary(ir::ExprOp::kGroup, shift));
+        if (add)
+          sum_value = make.Binary(ir::ExprOp::kAdd, make.Variable(sums[axis]), make.Unary(ir::ExprOp::kGroup, shift));
         Block assign = editor.MakeBlock(id);
         assign.skip_level = block.skip_level;
         if (first) {
@@ -300,7 +300,10 @@ bool RefuseInputs(const RaiseInput& input, const Translation& out, diag::Sink& s
     const Block& block = module.blocks[read.block];
     sink.Report(diag::Code::kMachineValue, module.RangeOf(block, module.words[read.word]),
                 fmt::format("{}, which may be read here before the program has written it,", name))
-        .help = fmt::format("it is an input of the operator or of another program; name its place in ncport.toml:  [variables]  {} = \"#500\"", first);
+        .help = fmt::format(
+        "it is an input of the operator or of another program; name its place in ncport.toml:  [variables]  {} = "
+        "\"#500\"",
+        first);
     ok = false;
   }
   return ok;

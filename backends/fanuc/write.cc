@@ -31,7 +31,8 @@ void AppendTitle(TextBuffer& out, const ProgramName& name, bool o_word) {
 
 }  // namespace
 
-std::vector<OutputFile> Write(const dialects::Profile& to, const Translation& translation, const std::vector<ProgramHeader>& headers) {
+std::vector<OutputFile> Write(const dialects::Profile& to, const Translation& translation,
+                              const std::vector<ProgramHeader>& headers) {
   std::vector<OutputFile> files;
   const bool by_file = to.names.program_form.Is(dialects::ProgramNaming::kFileName);
   TextBuffer text;

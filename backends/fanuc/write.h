@@ -5,6 +5,7 @@
 
 namespace ncport::backends::fanuc {
 
-std::vector<OutputFile> Write(const dialects::Profile& to, const Translation& translation, const std::vector<ProgramHeader>& headers);
+std::vector<OutputFile> Write(const dialects::Profile& to, const Translation& translation,
+                              const std::vector<ProgramHeader>& headers);
 
 }  // namespace ncport::backends::fanuc

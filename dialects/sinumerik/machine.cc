@@ -78,7 +78,7 @@ void FillMachine(const Profile& profile, ir::Machine& machine) {
   machine.rotation_order_rpy = !settings.rotation_order.Is(SinumerikSettings::RotationOrder::kEuler);  // sinumerik-8.7
   machine.chamfer_feed_from_next = !settings.corner_feed.Is(SinumerikSettings::CornerFeed::kOwn);      // sinumerik-8.9
   machine.frame_shift_in_diameter = settings.frames_as_diameter.Or(false);                             // sinumerik-8.5
-  machine.tool_word_changes = settings.tool_change.Is(SinumerikSettings::ToolChange::kAtT);  // sinumerik-8.8
+  machine.tool_word_changes = settings.tool_change.Is(SinumerikSettings::ToolChange::kAtT);            // sinumerik-8.8
   machine.tool_activates_edge = settings.change_selects_edge.Or(true);                                 // sinumerik-8.8
   machine.for_end_once = !settings.for_end_each_pass.Or(false);                                        // sinumerik-6.3
   machine.modal_call_trigger = ir::ModalCallTrigger::kMotionBlocks;                                    // sinumerik-7.1

@@ -161,7 +161,8 @@ const SystemRow* FindSystemVariable(std::string_view name) {
   for (const std::string_view start : {"MN_", "MC_", "MA_", "MAS_", "SN_", "SC_", "SA_"}) {
     if (StartsWith(name, start)) return &kData;
   }
-  for (const std::string_view start : {"A_", "AA_", "AC_", "AN_", "P_", "VA_", "VC_", "VN_", "TC_", "C_", "ON_", "OC_", "OA_"}) {
+  for (const std::string_view start :
+       {"A_", "AA_", "AC_", "AN_", "P_", "VA_", "VC_", "VN_", "TC_", "C_", "ON_", "OC_", "OA_"}) {
     if (StartsWith(name, start)) return &kOther;
   }
   return nullptr;

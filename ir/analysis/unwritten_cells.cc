@@ -21,8 +21,8 @@ struct Place {
 
 /// What a program does to the cells of its caller.
 struct Summary {
-  std::map<Key, Place> reads;    // before it wrote them
-  std::optional<Keys> writes;    // on every way to a return; none: no way is known yet
+  std::map<Key, Place> reads;  // before it wrote them
+  std::optional<Keys> writes;  // on every way to a return; none: no way is known yet
 };
 
 class Analysis {
@@ -223,8 +223,8 @@ bool Analysis::Run(ProgramId program) {
 
 std::vector<UnwrittenRead> UnwrittenCells(const Module& module, const FlowGraphs& graphs, const CallGraph& calls) {
   Analysis analysis(module, graphs);
-  // Callees first. Programs that call each other in a circle settle after a few rounds: reads only grow, and once all of
-  // them are known writes only shrink.
+  // Callees first. Programs that call each other in a circle settle after a few rounds: reads only grow, and once all
+  // of them are known writes only shrink.
   for (bool changed = true; changed;) {
     changed = false;
     for (const ProgramId program : calls.BottomUp()) changed = analysis.Run(program) || changed;
@@ -240,7 +240,8 @@ std::vector<UnwrittenRead> UnwrittenCells(const Module& module, const FlowGraphs
   }
   std::vector<UnwrittenRead> result;
   for (const auto& [key, place] : reads)
-    result.push_back({SpaceId{static_cast<std::uint32_t>(key >> 32U)}, static_cast<std::uint32_t>(key), place.block, place.word});
+    result.push_back(
+        {SpaceId{static_cast<std::uint32_t>(key >> 32U)}, static_cast<std::uint32_t>(key), place.block, place.word});
   return result;
 }
 

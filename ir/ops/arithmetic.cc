@@ -41,8 +41,8 @@ Number Modulo(double a, double b) {
   if (b == 0) return Fail(Error::kDivisionByZero);
   const Number quotient = DivideInteger(a, b);
   if (!quotient.Ok()) return quotient;
-  // By its definition, each step rounded as a control rounds it: a target without MOD computes the same steps, and a layer
-  // more or less at an exact multiple is decided alike (sinumerik-4.2).
+  // By its definition, each step rounded as a control rounds it: a target without MOD computes the same steps, and a
+  // layer more or less at an exact multiple is decided alike (sinumerik-4.2).
   return Finite(a - b * quotient.value + 0.0);
 }
 

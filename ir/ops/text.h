@@ -45,8 +45,8 @@ void AppendLower(TextBuffer& buffer, std::string_view text);
 /// Texts that name the same thing in languages without case (labels, programs, axes): letters A-Z compare without case.
 bool SameName(std::string_view a, std::string_view b);
 
-/// `value` with exactly `decimals` digits behind the point (none: no point) and at most `whole` before it: higher ones are lost
-/// (fanuc-10). `pads`: blanks for leading zeros, and a blank in the place of a missing sign.
+/// `value` with exactly `decimals` digits behind the point (none: no point) and at most `whole` before it: higher ones
+/// are lost (fanuc-10). `pads`: blanks for leading zeros, and a blank in the place of a missing sign.
 void AppendFixedText(TextBuffer& buffer, double value, int whole, int decimals, bool pads);
 
 /// One value of Format.

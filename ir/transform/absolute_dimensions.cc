@@ -524,8 +524,8 @@ void Pass::Flow() {
     if (blocks_.count == 0) return;
     for (Position& position : in_[0]) position.kind = Position::Kind::kUnknown;
     std::set<std::uint32_t> work{0};
-    // As soon as a place is found where a local must hold the position, all is followed anew: sums found on the way there
-    // were those of one way only.
+    // As soon as a place is found where a local must hold the position, all is followed anew: sums found on the way
+    // there were those of one way only.
     while (!work.empty() && carried_ == carried_before) {
       const std::uint32_t index = *work.begin();
       work.erase(work.begin());

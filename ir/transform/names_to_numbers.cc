@@ -170,7 +170,8 @@ void Allocation::PlaceSpaces() {
     const Space& source = module_.spaces[SpaceId{space}];
     std::uint32_t first = 0;
     const std::uint32_t count = source.last - source.first + 1;
-    if (const NamesToNumbersConfig::Pin* pin = PinOf({}, fmt::format("{}{}", module_.View(source.name), source.first))) {
+    if (const NamesToNumbersConfig::Pin* pin =
+            PinOf({}, fmt::format("{}{}", module_.View(source.name), source.first))) {
       first = pin->cell;
       for (std::uint32_t i = 0; i < count; ++i) used_common_.insert(first + i);
     } else if (!TakeCommon(count, first)) {

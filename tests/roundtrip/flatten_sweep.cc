@@ -283,7 +283,8 @@ class Sweep {
         arcs += event.kind == "ARC" ? 1 : 0;
         comp += event.line == "COMP LEFT" ? 1 : 0;
       }
-      // The first block moves with G1, the control's default (card 8.1). L1 twice: 2 circles, 91 rings, 3 lines besides; L2: one line in, 361 points of the ellipse.
+      // The first block moves with G1, the control's default (card 8.1). L1 twice: 2 circles, 91 rings, 3 lines
+      // besides; L2: one line in, 361 points of the ellipse.
       if (arcs != 2 * (2 + 91) || lines != 1 + 2 * 94 + 362 || comp < 1) {
         Fail(name, std::to_string(arcs) + " arcs, " + std::to_string(lines) + " lines, " + std::to_string(comp) +
                        " COMP LEFT\n" + Tail(traced.errors, 6));

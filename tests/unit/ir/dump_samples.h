@@ -15,7 +15,7 @@ axis X
 axis SP3
 spelling G1 rule "8.2"
 spelling G1 rule -
-spelling DIAMON rule sinumerik-9.1
+spelling DIAMON rule sinumerik-9
 space R 0..299 real kept all zero
 space # 1..33 number call level vacant
 space R 1..2 int program program unknown

@@ -65,8 +65,9 @@ Ignores CollectIgnores(const SourceFiles& files, const ir::Module& module) {
       }
       for (const ir::CommentId comment : block.comments)
         AddCodes(module.View(module.comments[comment].text), own, silenced, ignores);
-      // The comment of a block that was not understood is still part of its text.
-      if ((block.flags & ir::Block::kRefused) != 0) AddCodes(files.Line(own.file, own.line), own, own, ignores);
+      // The comment of a block that was not understood may still be part of its text.
+      if ((block.flags & ir::Block::kRefused) != 0 && block.comments.Empty())
+        AddCodes(files.Line(own.file, own.line), own, own, ignores);
     }
   }
   return ignores;

@@ -327,7 +327,11 @@ ParsedTrace ParseCanon(std::string_view text) {
 }
 
 std::string ReasonNotToAsk(const Trace& trace) {
+  bool speed = false;  // a spindle speed was programmed
   for (const TraceEvent& event : trace.events) {
+    speed = speed || event.line.starts_with("SPINDLE RPM");
+    if (!speed && event.line.ends_with("/r") && (event.kind == "LINE" || event.kind == "ARC"))
+      return "feed per revolution while the program leaves the spindle alone: rs274 wants a speed";
     if (event.kind == "ALARM") return "ends in an alarm, so there is no flat program";
     if (event.kind == "TAP") return "TAP: rs274 has no tapping of this kind";
     if (event.kind == "PROBE") return "PROBE: needs a probe";

@@ -137,7 +137,7 @@ TEST_CASE("the nearest ncport.toml upwards holds") {
   const Result<Config> far = FindConfig((folder.path / "a/b/part.mpf").string(), files, sink);
   REQUIRE(far.Ok());
   CHECK(far->to == "mazak-qtn");
-  CHECK(fs::path(far->folder) == folder.path);
+  CHECK(fs::equivalent(far->folder, folder.path));  // from where ncport was started
   std::ofstream(folder.path / "a/ncport.toml") << "to = \"fanuc-mill\"\n";
   const Result<Config> near = FindConfig((folder.path / "a/b/part.mpf").string(), files, sink);
   REQUIRE(near.Ok());

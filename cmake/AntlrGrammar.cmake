@@ -11,7 +11,17 @@ function(ncport_find_antlr)
   find_library(NCPORT_ANTLR_LIBRARY NAMES libantlr4-runtime.a antlr4-runtime REQUIRED)
   find_package(Threads REQUIRED)
   add_library(ncport_antlr_runtime INTERFACE)
-  target_include_directories(ncport_antlr_runtime SYSTEM INTERFACE ${NCPORT_ANTLR_INCLUDE})
+  set(include ${NCPORT_ANTLR_INCLUDE})
+  if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    # clang refuses a defaulted constructor of a class with const vectors, which gcc takes: the headers with that one
+    # constructor spelled out. Layout and symbols stay those of the library.
+    set(include ${CMAKE_BINARY_DIR}/antlr4-runtime)
+    file(COPY ${NCPORT_ANTLR_INCLUDE}/ DESTINATION ${include})
+    file(READ ${NCPORT_ANTLR_INCLUDE}/Vocabulary.h text)
+    string(REPLACE "Vocabulary() = default;" "Vocabulary() : _literalNames(), _symbolicNames(), _displayNames() {}" text "${text}")
+    file(WRITE ${include}/Vocabulary.h "${text}")
+  endif()
+  target_include_directories(ncport_antlr_runtime SYSTEM INTERFACE ${include})
   target_link_libraries(ncport_antlr_runtime INTERFACE ${NCPORT_ANTLR_LIBRARY} Threads::Threads)
 endfunction()
 

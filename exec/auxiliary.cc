@@ -24,43 +24,44 @@ std::uint32_t Auxiliary::Whole(const Value& value) {
 }
 
 Channel::Spindle* Auxiliary::SpindleOf(std::uint8_t index) {
-  if (index < Channel::kSpindles) return &channel_.spindles[index];
+  if (index < kSpindles) return &channel_.spindles[index];
   session_.Refuse(diag::Code::kCannotRun, fmt::format("spindle {}", index));
   return nullptr;
 }
 
 void Auxiliary::Act(const ir::Word& word, const Value& value, bool edge_follows) {
+  const std::uint8_t number = Channel::SpindleByNumber(word.index);
   switch (word.op) {
     case WordOp::kSpeed: {
       const double speed = evaluator_.ToNumber(value);
       return Speed(word, (word.flags & ir::Word::kRoundsValue) != 0 ? ir::ops::Round(speed) : speed);
     }
     case WordOp::kSpeedLimit: {
-      Channel::Spindle* const spindle = SpindleOf(word.index);
+      Channel::Spindle* const spindle = SpindleOf(number);
       if (spindle == nullptr) return;
       spindle->limit_known = true;
       spindle->limit = evaluator_.ToNumber(value);
       Event& event = emitter_.Begin(EventKind::kSpindleLimit);
-      event.spindle = word.index;
+      event.spindle = number;
       event.value = spindle->limit;
       return emitter_.Send(event);
     }
     case WordOp::kSpindle: {
-      Channel::Spindle* const spindle = SpindleOf(word.index);
+      Channel::Spindle* const spindle = SpindleOf(number);
       if (spindle == nullptr) return;
       spindle->state = static_cast<ir::SpindleState>(word.extra);
       Event& event = emitter_.Begin(EventKind::kSpindle);
-      event.spindle = word.index;
+      event.spindle = number;
       event.spindle_state = spindle->state;
       return emitter_.Send(event);
     }
     case WordOp::kSpindlePosition: {
-      Channel::Spindle* const spindle = SpindleOf(word.index);
+      Channel::Spindle* const spindle = SpindleOf(number);
       if (spindle == nullptr) return;
       spindle->state = ir::SpindleState::kPositioned;
       spindle->position = evaluator_.ToNumber(value);
       Event& event = emitter_.Begin(EventKind::kSpindlePosition);
-      event.spindle = word.index;
+      event.spindle = number;
       event.value = spindle->position;
       return emitter_.Send(event);
     }
@@ -100,18 +101,19 @@ void Auxiliary::Act(const ir::Word& word, const Value& value, bool edge_follows)
 
 /// 1/min or, under constant surface speed, m/min; from inch sources feet per minute.
 void Auxiliary::Speed(const ir::Word& word, double value) {
-  Channel::Spindle* const spindle = SpindleOf(word.index);
+  const std::uint8_t number = Channel::SpindleByNumber(word.index);
+  Channel::Spindle* const spindle = SpindleOf(number);
   if (spindle == nullptr) return;
   if (channel_.modal.speed_mode == ir::SpeedMode::kUnknown) {
     return session_.Refuse(diag::Code::kUnknownModalState, "the meaning of the speed", "nothing in the run has set it");
   }
   // The surface speed belongs to the master spindle.
-  const bool surface = channel_.modal.speed_mode == ir::SpeedMode::kConstantSurface && word.index == 0;
+  const bool surface = channel_.modal.speed_mode == ir::SpeedMode::kConstantSurface && number == 0;
   if (surface && channel_.modal.units == ir::Units::kInch) value *= kFoot;
   spindle->speed_known = true;
   spindle->speed = value;
   Event& event = emitter_.Begin(surface ? EventKind::kSpindleSurface : EventKind::kSpindleSpeed);
-  event.spindle = word.index;
+  event.spindle = number;
   event.value = value;
   emitter_.Send(event);
 }

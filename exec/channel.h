@@ -65,8 +65,9 @@ struct Channel {
   double feed = 0;
   double thread_change = 0;  // of the lead, per revolution
 
-  // Spindle 0 is the master spindle.
-  static constexpr std::uint8_t kSpindles = 8;
+  // Spindle 0 is the master spindle. Spindle 1 by its number is the master too: no program that is run makes another
+  // one the master.
+  static constexpr std::uint8_t SpindleByNumber(std::uint8_t number) { return number == 1 ? std::uint8_t{0} : number; }
   struct Spindle {
     ir::SpindleState state = ir::SpindleState::kUnknown;
     bool speed_known = false;

@@ -106,8 +106,9 @@ Value Evaluator::ReadSystem(const ir::System& system, std::uint32_t key, std::st
       return Value::Real(inch_feed ? channel_.feed / 25.4 : channel_.feed);
     }
     case SystemKind::kActiveSpeed: {
-      const bool valid = first >= 0 && first < Channel::kSpindles;
-      const Channel::Spindle& spindle = channel_.spindles[valid ? static_cast<std::size_t>(first) : 0];
+      const bool valid = first >= 0 && first < kSpindles;
+      const Channel::Spindle& spindle =
+          channel_.spindles[valid ? Channel::SpindleByNumber(static_cast<std::uint8_t>(first)) : 0];
       if (!valid || !spindle.speed_known) break;
       return Value::Real(spindle.speed);
     }

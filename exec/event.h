@@ -41,6 +41,9 @@ enum class EventKind : std::uint8_t {
   kSetVariable,
 };
 
+/// Spindles of a machine that a run can tell apart.
+constexpr std::uint8_t kSpindles = 8;
+
 enum class OffsetKind : std::uint8_t { kNumber, kEdge, kLength, kRadius, kNone };
 
 /// Where an event comes from: the block, the calls that lead to it, the turns of the loops around it.
@@ -65,7 +68,7 @@ struct Event {
   bool per_revolution = false;          // kDwell in revolutions
   bool full_circle = false;             // kArc that ends where it starts
   bool added = false;                   // from a block or word that a pass added
-  std::uint8_t spindle = 0;             // 0 = master
+  std::uint8_t spindle = 0;             // below kSpindles; 0 = master
   std::uint8_t transverse_axis = 0xFF;  // that diameter words hold for; 0xFF = none
   std::uint16_t known_axes = 0;         // axes programmed so far in this run: written by traces
   std::uint16_t moved_axes = 0;         // axes that this block names

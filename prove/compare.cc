@@ -43,6 +43,7 @@ struct SpindleNow {
   double limit = -1;
   bool operator==(const SpindleNow&) const = default;
 };
+using Spindles = std::array<SpindleNow, exec::kSpindles>;
 
 /// What was selected on one side so far; each change is an event, a repetition is none.
 struct Selected {
@@ -74,8 +75,8 @@ class Walk {
   const Event* Next();
   void Advance() { ++index_; }
 
-  [[nodiscard]] const SpindleNow& Spindle() const { return spindle_; }
-  [[nodiscard]] const SpindleNow& SpindleWithoutAdded() const { return own_spindle_; }
+  [[nodiscard]] const Spindles& SpindlesNow() const { return spindles_; }
+  [[nodiscard]] const Spindles& SpindlesWithoutAdded() const { return own_spindles_; }
   [[nodiscard]] const Selected& Now() const { return now_; }
   [[nodiscard]] std::uint16_t Dirty() const { return dirty_; }
   [[nodiscard]] const std::optional<std::string>& Complaint() const { return complaint_; }
@@ -88,7 +89,7 @@ class Walk {
   [[nodiscard]] std::size_t MotionsDone() const { return motions_done_; }
 
  private:
-  void TakeSpindle(const Event& event, SpindleNow& state) const;
+  static void TakeSpindle(const Event& event, Spindles& spindles);
   bool TakeState(const Event& event);
   void TakeAdded(const Event& event);
   [[nodiscard]] bool ToolAhead() const;
@@ -100,14 +101,14 @@ class Walk {
   std::size_t motions_left_ = 0, motions_done_ = 0;
   bool tool_since_motion_ = false;
   const Event* last_ = nullptr;
-  SpindleNow spindle_, own_spindle_;
+  Spindles spindles_, own_spindles_;
   Selected now_, own_;
   std::uint16_t dirty_ = 0;  // axes that added blocks moved and the program has not named since
   std::optional<std::string> complaint_;
 };
 
-void Walk::TakeSpindle(const Event& event, SpindleNow& state) const {
-  if (event.spindle > 1) return;
+void Walk::TakeSpindle(const Event& event, Spindles& spindles) {
+  SpindleNow& state = spindles[event.spindle];
   switch (event.kind) {
     case EventKind::kSpindle:
       state.sense = event.spindle_state;
@@ -188,7 +189,7 @@ const Event* Walk::Next() {
       case EventKind::kSpindleSpeed:
       case EventKind::kSpindleSurface:
       case EventKind::kSpindleLimit:
-        if (event.kind == EventKind::kSpindleSurface && spindle_.limit < 0 && !event.added) {
+        if (event.kind == EventKind::kSpindleSurface && spindles_[event.spindle].limit < 0 && !event.added) {
           // A limit later in the same block is in force with it.
           bool follows = false;
           for (std::size_t i = index_ + 1; i < events_.size() && events_[i].block == event.block; ++i) {
@@ -199,8 +200,8 @@ const Event* Walk::Next() {
           if (!follows && later && !complaint_)
             complaint_ = "constant surface speed starts before its speed limit is set";
         }
-        TakeSpindle(event, spindle_);
-        if (!event.added) TakeSpindle(event, own_spindle_);
+        TakeSpindle(event, spindles_);
+        if (!event.added) TakeSpindle(event, own_spindles_);
         continue;
       case EventKind::kTool:
         tool_since_motion_ = true;
@@ -267,7 +268,8 @@ class Comparer {
   void CompareEnds(const Event& a, const Event& b);
   void ComparePositions(const Event& a, const Event& b);
   void CompareMotionDetails(const Event& a, const Event& b);
-  void CompareSpindles(const Event& a, const Event& b, const SpindleNow& sa, const SpindleNow& sb);
+  void CompareSpindles(const Event& a, const Event& b, const Spindles& source, const Spindles& target);
+  void CompareSpindle(const Event& a, const Event& b, const SpindleNow& sa, const SpindleNow& sb);
   void CompareTool(const Event& a, const Event& b);
   void CompareToolState(const Event& a, const Event& b);
   void CompareWorkOffset(const Event& a, const Event& b, std::uint32_t wcs_a, std::uint32_t ext_a, std::uint32_t wcs_b,
@@ -371,7 +373,11 @@ void Comparer::CompareMotionDetails(const Event& a, const Event& b) {
   CompareNumber(a, b, a.feed, b.feed, "the feed");
 }
 
-void Comparer::CompareSpindles(const Event& a, const Event& b, const SpindleNow& sa, const SpindleNow& sb) {
+void Comparer::CompareSpindles(const Event& a, const Event& b, const Spindles& source, const Spindles& target) {
+  for (std::size_t i = 0; i < source.size() && !Failed(); ++i) CompareSpindle(a, b, source[i], target[i]);
+}
+
+void Comparer::CompareSpindle(const Event& a, const Event& b, const SpindleNow& sa, const SpindleNow& sb) {
   if (sa.sense != sb.sense) {
     // Before either side switched the spindle there is nothing to compare.
     const bool idle_a = sa.sense == ir::SpindleState::kUnknown || sa.sense == ir::SpindleState::kStop;
@@ -464,14 +470,14 @@ void Comparer::ComparePair(const Event& a, const Event& b) {
     case EventKind::kReference:
       if (a.kind != EventKind::kReference) ComparePositions(a, b);
       if (!Failed()) CompareMotionDetails(a, b);
-      if (!Failed() && IsCutting(a.kind)) CompareSpindles(a, b, source_.Spindle(), target_.Spindle());
+      if (!Failed() && IsCutting(a.kind)) CompareSpindles(a, b, source_.SpindlesNow(), target_.SpindlesNow());
       if (!Failed() && (IsCutting(a.kind) || (options_.maps.separate_registers && a.kind == EventKind::kRapid)))
         CompareToolState(a, b);
       if (!Failed() && source_.Now().wcs_known && target_.Now().wcs_known) {
         CompareWorkOffset(a, b, source_.Now().wcs, source_.Now().wcs_extension, target_.Now().wcs,
                           target_.Now().wcs_extension);
       }
-      if (!Failed() && a.kind == EventKind::kRapid && !(source_.Spindle() == target_.Spindle()))
+      if (!Failed() && a.kind == EventKind::kRapid && source_.SpindlesNow() != target_.SpindlesNow())
         ++result_.spindle_moved_across_rapid;
       source_.MotionDone(a);
       target_.MotionDone(b);
@@ -513,7 +519,7 @@ void Comparer::ComparePair(const Event& a, const Event& b) {
       CompareEnds(a, b);
       break;
     case EventKind::kEnd:
-      CompareSpindles(a, b, source_.SpindleWithoutAdded(), target_.SpindleWithoutAdded());
+      CompareSpindles(a, b, source_.SpindlesWithoutAdded(), target_.SpindlesWithoutAdded());
       break;
     default:
       break;

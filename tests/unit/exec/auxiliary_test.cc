@@ -21,6 +21,10 @@ TEST_CASE_FIXTURE(RunFixture, "the limit of the speed comes before the speed; a 
         "RPM 572.957795\nSPINDLE RPM 500\n");
 }
 
+TEST_CASE_FIXTURE(RunFixture, "spindle 1 by its number is the master spindle") {
+  CHECK(Trace({"S1=800 M3", "S900"}) == "SPINDLE RPM 800\nSPINDLE CW\nSPINDLE RPM 900\n");
+}
+
 TEST_CASE_FIXTURE(RunFixture, "a frozen surface speed needs the diameter, and the limit holds") {
   machine = TestLathe();
   Trace({"G96 S180", "G97"});

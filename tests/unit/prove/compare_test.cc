@@ -191,6 +191,23 @@ TEST_CASE("spindle states count where the tool cuts, not where they are written"
   CHECK_FALSE(Agree(a, other));
 }
 
+TEST_CASE("a second spindle counts as the first one does") {
+  const auto second = [](double speed) {
+    Event event;
+    event.kind = EventKind::kSpindleSpeed;
+    event.spindle = 2;
+    event.value = speed;
+    return event;
+  };
+  Trace a, b, c;
+  a.Put(second(500)).Line(1, 2, 100).End();
+  b.Put(second(600)).Line(1, 2, 100).End();
+  c.Line(1, 2, 100).End();
+  CHECK_FALSE(Compare(a.recorded, a.recorded, {}).difference);
+  CHECK(Compare(a.recorded, b.recorded, {}).difference);
+  CHECK(Compare(a.recorded, c.recorded, {}).difference);
+}
+
 TEST_CASE("the speed limit must be in force before constant surface speed") {
   Trace a, late;
   a.Value(EventKind::kSpindleLimit, 3000).Value(EventKind::kSpindleSurface, 180).Rapid(1, 1).Line(1, 0, 1).End();

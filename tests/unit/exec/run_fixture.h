@@ -233,6 +233,7 @@ struct RunFixture {
         {"F", {Op::kFeed}},
         {"FB", {Op::kFeedOnce}},
         {"S", {Op::kSpeed}},
+        {"S1", {Op::kSpeed, 1}},
         {"S2", {Op::kSpeed, 2}},
         {"LIMS", {Op::kSpeedLimit}},
         {"SPOS", {Op::kSpindlePosition}},

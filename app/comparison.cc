@@ -27,7 +27,10 @@ bool ReadBack(const std::vector<backends::OutputFile>& files, const dialects::Pr
   diag::Sink sink;
   std::vector<FileId> ids;
   for (const backends::OutputFile& file : files) {
-    const FileId id = sources.Add(file.name.empty() ? "output" : file.name, file.text);
+    const FileId id = sources.Add(!file.name.empty()       ? file.name
+                                  : !file.reads_as.empty() ? file.reads_as
+                                                           : "output",
+                                  file.text);
     ids.push_back(id);
     if (!frontend::ReadFile(sources, id, target, {}, module, sink).Ok()) break;
   }
@@ -135,6 +138,13 @@ std::vector<prove::BoundInput> Binder::Arguments(ir::ProgramId entry) {
       place.callee = callee;
       place.position = static_cast<std::uint16_t>(i);
       bound.source.push_back(place);
+      if (translation_.keeps_files) {
+        prove::InputPlace same = place;
+        same.callee = FindByName(target_, source_.View(program.name));
+        if (same.callee.Valid()) bound.target.push_back(same);
+        inputs.push_back(std::move(bound));
+        continue;
+      }
       // Every program of the target that got a letter for this parameter: the parts of a split cycle have one each.
       for (const ir::transform::CellMapping& mapping : translation_.cells) {
         if (mapping.letter == 0 || !SameName(mapping.source, source_.View(variable.name))) continue;
@@ -266,12 +276,14 @@ prove::Verification CompareTranslation(Context& context, const ProgramSet& sourc
   options.compare.target = PrecisionOf(target, target_machine);
   options.compare.maps = MapsOf(translation, !target.IsLathe());
   options.compare.maps.cross_language = source.profile.language != target.language;
+  options.target_skip_shift = static_cast<int>(target.skip.Or(0) - source.profile.skip.Or(0));
   for (const ir::SpaceId space : module.spaces.Ids()) {
     if (module.spaces[space].lifetime == ir::Lifetime::kKept) options.garbage.push_back(space);
   }
   for (const ir::transform::CellMapping& mapping : translation.cells) {
     if (mapping.outlives && mapping.count == 1)
-      options.final_values.emplace_back(mapping.source, fmt::format("#{}", mapping.first));
+      options.final_values.emplace_back(mapping.source,
+                                        mapping.target.empty() ? fmt::format("#{}", mapping.first) : mapping.target);
   }
   prove::Side a{&source.module, &source_machine, entry, source.module.programs[entry].kind == ir::ProgramKind::kSub};
   prove::Side b{&module, &target_machine, target_entry, a.is_call};

@@ -28,6 +28,10 @@ std::uint64_t HashOf(const Context& context, const ir::Module& module) {
   return hash;
 }
 
+std::string TargetOf(const ir::transform::CellMapping& cell) {
+  return cell.target.empty() ? fmt::format("#{}", cell.first) : cell.target;
+}
+
 std::string FileNameOf(std::string_view path) {
   const std::size_t slash = path.rfind('/');
   return std::string(slash == std::string_view::npos ? path : path.substr(slash + 1));
@@ -87,7 +91,9 @@ std::vector<backends::ProgramHeader> HeadersOf(const Context& context, const Pro
       for (const backends::ProgramName& program : translation.programs)
         lines.push_back(fmt::format("PROGRAM {} = {}", program.source, program.target));
       for (const backends::AlarmUse& alarm : translation.alarms)
-        lines.push_back(fmt::format("ALARM {} = #3000={}", alarm.source, alarm.target));
+        lines.push_back(target.language == dialects::Language::kSinumerik
+                            ? fmt::format("ALARM {} = SETAL({})", alarm.source, alarm.target)
+                            : fmt::format("ALARM {} = #3000={}", alarm.source, alarm.target));
       for (const backends::ToolUse& tool : translation.tools)
         lines.push_back(fmt::format("TOOL {} = {}", tool.source_words, tool.target_words));
       for (const backends::OffsetUse& offset : translation.offsets) {
@@ -95,7 +101,7 @@ std::vector<backends::ProgramHeader> HeadersOf(const Context& context, const Pro
                                     offset.target_extension == 0 ? "" : fmt::format(" P{}", offset.target_extension)));
       }
       for (const ir::transform::CellMapping& cell : translation.cells) {
-        if (cell.common) lines.push_back(fmt::format("#{} = {}", cell.first, cell.source));
+        if (cell.common) lines.push_back(fmt::format("{} = {}", TargetOf(cell), cell.source));
       }
       if (verification == nullptr) {
         lines.emplace_back("NOT COMPARED: --verify WAS NOT ASKED FOR");
@@ -112,10 +118,10 @@ std::vector<backends::ProgramHeader> HeadersOf(const Context& context, const Pro
     for (const ir::transform::CellMapping& cell : translation.cells) {
       if (cell.program != name.program || cell.common) continue;
       if (cell.letter != 0) {
-        lines.push_back(fmt::format("{} = #{} = {}{}", cell.letter, cell.first, cell.source,
+        lines.push_back(fmt::format("{} = {} = {}{}", cell.letter, TargetOf(cell), cell.source,
                                     RangeOfInput(inputs, name.source, cell.source)));
       } else {
-        lines.push_back(fmt::format("#{} = {}", cell.first, cell.source));
+        lines.push_back(fmt::format("{} = {}", TargetOf(cell), cell.source));
       }
     }
     first = false;

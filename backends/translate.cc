@@ -2,6 +2,8 @@
 
 #include "backends/fanuc/raise.h"
 #include "backends/fanuc/write.h"
+#include "backends/sinumerik/raise.h"
+#include "backends/sinumerik/write.h"
 #include "base/result.h"
 
 namespace ncport::backends {
@@ -10,6 +12,9 @@ bool Raise(const TranslateInput& input, Translation& translation, diag::Sink& si
   switch (input.to->language) {
     case dialects::Language::kFanuc:
       return fanuc::Raise({input.source, input.source_machine, input.to, input.config}, translation, sink);
+    case dialects::Language::kSinumerik:
+      return sinumerik::Raise({input.source, input.from, input.source_machine, input.to, input.config}, translation,
+                              sink);
     default:
       break;
   }
@@ -23,6 +28,8 @@ std::vector<OutputFile> Print(const dialects::Profile& to, const Translation& tr
   switch (to.language) {
     case dialects::Language::kFanuc:
       return fanuc::Write(to, translation, headers);
+    case dialects::Language::kSinumerik:
+      return sinumerik::Write(to, translation, headers);
     default:
       NCPORT_BUG("a module for {} reached the printers", to.name);
   }

@@ -30,6 +30,7 @@ struct ProgramHeader {
 struct OutputFile {
   std::string name;  // "4001.EIA"; empty: the text has one file only, named by the user
   std::string text;
+  std::string reads_as;                    // name under which a text without name is read back; empty: any
   std::vector<std::uint32_t> added_lines;  // 1-based, ascending
   std::vector<ir::BlockId> line_blocks;    // block of Translation::module a line shows; by line - 1, may be invalid
 };

@@ -255,7 +255,10 @@ bool Verifier::ComparePair(const ParameterSet& set, std::uint16_t skip_levels, s
                            exec::Coverage* coverage) {
   const exec::Outcome a = source_.Run(skip_levels, options_.max_blocks, source_trace_, sink_, coverage);
   diag::Sink target_sink;
-  const exec::Outcome b = target_.Run(skip_levels, options_.max_blocks, target_trace_, target_sink, nullptr);
+  const int shift = options_.target_skip_shift;
+  const auto target_levels =
+      static_cast<std::uint16_t>(shift >= 0 ? skip_levels << shift : skip_levels >> -shift);  // `/` is the first level
+  const exec::Outcome b = target_.Run(target_levels, options_.max_blocks, target_trace_, target_sink, nullptr);
   const auto broken = [](exec::Outcome outcome) {
     return outcome != exec::Outcome::kEnded && outcome != exec::Outcome::kAlarmed;
   };

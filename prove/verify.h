@@ -45,6 +45,7 @@ struct VerifyOptions {
   CompareOptions compare;
   std::vector<ir::BlockId> listed_branches;  // of the source: may stay uncovered, the report names them
   std::vector<ir::SpaceId> garbage;          // spaces of the target that a poisoned start fills with garbage
+  int target_skip_shift = 0;                 // skip level n of the source is level n + shift of the target
   bool poison_distance = true;               // the target has words for the distance mode
   std::vector<std::pair<std::string, std::string>> final_values;  // source name, target name, as SET events print them
 };

@@ -57,6 +57,7 @@ struct Translation {
   std::vector<std::string> added;        // blocks without a source block, with the reason
   std::vector<std::string> required;     // what the machine must have: options, parameters, settings
   std::vector<std::string> assumptions;  // unverified rules and settings that the output rests on, with the card row
+  bool keeps_files = false;  // the programs stay in the files of the source
   bool messages_lost = false;
   bool path_lost = false;
   bool tool_change_added = false;  // the target has a change word where the source's tool word changes by itself

@@ -1,0 +1,305 @@
+// ArrangeWords: words that SINUMERIK reads in another way, block by block.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <string_view>
+#include <vector>
+
+#include "backends/sinumerik/raise_words.h"
+#include "ir/analysis/call_graph.h"
+#include "ir/analysis/cfg.h"
+#include "ir/analysis/modal_state.h"
+#include "ir/builder.h"
+#include "ir/transform/program_editor.h"
+
+namespace ncport::backends::sinumerik {
+
+namespace {
+
+using ir::Block;
+using ir::BlockId;
+using ir::ExprId;
+using ir::Module;
+using ir::Word;
+using ir::WordId;
+using ir::WordOp;
+using ir::transform::ProgramEditor;
+
+/// What the programs use at all: words that only switch it off are not carried over when nothing does.
+struct Uses {
+  bool cycles = false, polar = false, length = false, rotation = false, scaling = false, mirror = false;
+};
+
+Uses FindUses(const Module& module) {
+  Uses uses;
+  for (const ir::ProgramId program : module.programs.Ids()) {
+    for (const BlockId id : module.programs[program].blocks) {
+      for (const WordId word_id : module.blocks[id].words) {
+        const Word& word = module.words[word_id];
+        const auto frame = static_cast<ir::FrameOp>(word.index);
+        switch (word.op) {
+          case WordOp::kCycle:
+            uses.cycles = uses.cycles || word.index != static_cast<std::uint8_t>(ir::Cycle::kNone);
+            break;
+          case WordOp::kPolarMode:
+            uses.polar = uses.polar || word.index != 0;
+            break;
+          case WordOp::kLengthOffset:
+            uses.length = uses.length || word.index != 0 || word.value.Valid();
+            break;
+          case WordOp::kFrame:
+            uses.rotation = uses.rotation || frame == ir::FrameOp::kRotateAbout;
+            uses.scaling = uses.scaling || frame == ir::FrameOp::kScaleAbout;
+            uses.mirror = uses.mirror || frame == ir::FrameOp::kMirrorAbout;
+            break;
+          default:
+            break;
+        }
+      }
+    }
+  }
+  return uses;
+}
+
+class Pass {
+ public:
+  Pass(const RaiseInput& input, Translation& out, diag::Sink& sink)
+      : input_(input),
+        module_(out.module),
+        sink_(sink),
+        make_(out.module),
+        graphs_(out.module),
+        calls_(out.module),
+        flow_(out.module, *input.source_machine, graphs_, calls_,
+              {input.source_machine->start, input.config != nullptr ? input.config->entry : ir::ModalState{}}),
+        uses_(FindUses(out.module)) {}
+
+  bool Run() {
+    for (const ir::ProgramId program : module_.programs.Ids()) {
+      ProgramEditor editor(module_, program, "arrange_words");
+      for (const BlockId id : module_.programs[program].blocks) Arrange(program, id, editor);
+      editor.Apply();
+    }
+    return ok_;
+  }
+
+ private:
+  void Refuse(const Block& block, const Word& word, std::string_view what) {
+    ok_ = false;
+    sink_.Report(diag::Code::kNotExpressible, module_.RangeOf(block, word), what, input_.profile->name);
+  }
+
+  /// A word that switches off what nothing here switches on. A main program starts with all of it off; a subprogram
+  /// alone relies on its callers for it.
+  [[nodiscard]] bool SwitchesNothing(const Word& word) const {
+    switch (word.op) {
+      case WordOp::kCycle:
+      case WordOp::kReturnLevel:
+        return !uses_.cycles;
+      case WordOp::kPolarMode:
+        return !uses_.polar;
+      case WordOp::kLengthOffset:
+        return !uses_.length;
+      case WordOp::kModalCall:
+        return !word.Extra<ir::CallId>().Valid();
+      case WordOp::kFrame:
+        switch (static_cast<ir::FrameOp>(word.index)) {
+          case ir::FrameOp::kRotateEnd:
+            return !uses_.rotation;
+          case ir::FrameOp::kScaleEnd:
+            return !uses_.scaling;
+          case ir::FrameOp::kMirrorEnd:
+            return !uses_.mirror;
+          default:
+            return false;
+        }
+      default:
+        return false;
+    }
+  }
+
+  void Arrange(ir::ProgramId program, BlockId id, ProgramEditor& editor) {
+    const Block block = module_.blocks[id];
+    const ir::ModalState before = flow_.Before(program, id), at = flow_.At(program, id);
+    std::vector<Word> words, dwell;
+    bool radius = false, feed = false;
+    for (const WordId word_id : block.words) {
+      radius = radius || module_.words[word_id].op == WordOp::kRadius;
+      feed = feed || module_.words[word_id].op == WordOp::kFeed;
+    }
+    for (const WordId word_id : block.words) {
+      const Word word = module_.words[word_id];
+      if (SwitchesNothing(word)) continue;
+      switch (word.op) {
+        case WordOp::kDwellSeconds:
+          dwell.push_back(word);
+          continue;
+        case WordOp::kCenter:
+          if (radius && input_.source_machine->arc_radius_beats_center) continue;
+          break;
+        case WordOp::kRadius:
+          CheckRadius(block, word, at);
+          break;
+        case WordOp::kFeedMode:
+          if (!FeedMode(program, id, block, word, before, feed)) continue;
+          break;
+        case WordOp::kSpeedMode:
+          if (!SpeedMode(block, word, before, at)) continue;
+          break;
+        case WordOp::kTool:
+        case WordOp::kToolOffset:
+        case WordOp::kToolChange:
+        case WordOp::kRadiusOffset:
+          Refuse(block, word, "a tool or its offset");
+          break;
+        case WordOp::kReference:
+          // Where the reference point lies, and by which word it is reached, only the machine knows.
+          Refuse(block, word, "a move to the reference point");
+          break;
+        default:
+          break;
+      }
+      words.push_back(word);
+    }
+    ThreadLead(block, at, words);
+    SetWords(id, block, words, dwell, editor);
+  }
+
+  void SetWords(BlockId id, const Block& block, std::vector<Word>& words, const std::vector<Word>& dwell,
+                ProgramEditor& editor) {
+    if (dwell.empty() || words.empty()) {
+      Block changed = block;
+      editor.SetWords(changed, dwell.empty() ? words : dwell);
+      module_.blocks[id].words = changed.words;
+      return;
+    }
+    // G4 stands alone (sinumerik-8.2); what acts behind the motion comes behind it.
+    std::vector<Word> first, last;
+    for (const Word& word : words) {
+      const bool behind = word.phase == ir::Phase::kAfter || word.phase == ir::Phase::kLast;
+      (behind ? last : first).push_back(word);
+    }
+    bool marks = true;
+    for (const std::vector<Word>* part : {&std::as_const(first), &dwell, &std::as_const(last)}) {
+      if (part->empty()) continue;
+      Block made = editor.MakeBlock(id);
+      made.skip_level = block.skip_level;
+      if (marks) {
+        made.number = block.number;
+        made.number_digits = block.number_digits;
+        made.label = block.label;
+        made.comments = block.comments;
+      }
+      marks = false;
+      editor.SetWords(made, *part);
+      editor.InsertBefore(id, made);
+    }
+    module_.blocks[id].comments = {};
+    module_.blocks[id].label = {};
+    module_.blocks[id].number = Block::kNoNumber;
+    editor.Remove(id);
+  }
+
+  /// A radius without another end point is no motion at all there, an alarm here (fanuc-8.3, sinumerik-8.3).
+  void CheckRadius(const Block& block, const Word& word, const ir::ModalState& at) {
+    if (!input_.source_machine->arc_radius_without_end_stays || at.plane == ir::Plane::kUnknown) return;
+    bool in_plane = false;
+    for (const WordId word_id : block.words) {
+      const Word& axis = module_.words[word_id];
+      if (axis.op != WordOp::kAxis || axis.index > 2) continue;
+      const std::uint8_t normal = at.plane == ir::Plane::kXY ? 2 : at.plane == ir::Plane::kZX ? 1 : 0;
+      in_plane = in_plane || axis.index != normal;
+    }
+    if (!in_plane) Refuse(block, word, "an arc by its radius without an end point");
+  }
+
+  /// Group 15 holds G94, G95 with G96, G97: a feed word under constant surface speed would end it (sinumerik-8.1).
+  /// False: the word goes, it changes nothing.
+  bool FeedMode(ir::ProgramId program, BlockId id, const Block& block, const Word& word, const ir::ModalState& before,
+                bool feed) {
+    const auto mode = static_cast<ir::FeedMode>(word.index);
+    if (before.feed_mode == mode) return false;
+    if (before.speed_mode != ir::SpeedMode::kRpm) {
+      Refuse(block, word, "a change of the feed's unit where constant surface speed may be in force");
+    } else if (!feed && !input_.source_machine->feed_type_change_drops_feed && !FeedFollows(program, id)) {
+      Refuse(block, word, "a change of the feed's unit that keeps the number F");  // sinumerik-8.8
+    }
+    return true;
+  }
+
+  /// An F word comes before anything that moves at feed or leaves the straight way down.
+  [[nodiscard]] bool FeedFollows(ir::ProgramId program, BlockId from) const {
+    const IdRange<BlockId> blocks = module_.programs[program].blocks;
+    for (std::uint32_t i = from.value + 1; i < blocks.begin + blocks.count; ++i) {
+      const BlockId id{std::size_t{i}};
+      const Block& block = module_.blocks[id];
+      bool moves = false;
+      for (const WordId word_id : block.words) {
+        const Word& word = module_.words[word_id];
+        if (word.op == WordOp::kFeed) return block.skip_level == Block::kNoSkip;
+        if (word.op == WordOp::kProgramEnd) return true;
+        if (word.phase == ir::Phase::kFlow || word.phase == ir::Phase::kLast) return false;
+        moves = moves || word.phase == ir::Phase::kMotion;
+      }
+      if (block.label.Valid() || block.number != Block::kNoNumber) return false;
+      if (moves && flow_.At(program, id).motion != ir::Motion::kRapid) return false;
+    }
+    return false;
+  }
+
+  /// G96 and G97 go with feed per revolution (sinumerik-8.8).
+  bool SpeedMode(const Block& block, const Word& word, const ir::ModalState& before, const ir::ModalState& at) {
+    const auto mode = static_cast<ir::SpeedMode>(word.index);
+    if (mode == ir::SpeedMode::kRpm && before.speed_mode == mode) return false;
+    if (at.feed_mode != ir::FeedMode::kPerRevolution)
+      Refuse(block, word, "a change of the spindle mode where the feed may be per minute");
+    return true;
+  }
+
+  /// The lead is F there, the centre word of the axis here (fanuc-8.1, sinumerik-8.4).
+  void ThreadLead(const Block& block, const ir::ModalState& at, std::vector<Word>& words) {
+    if (!input_.source_machine->thread_lead_from_feed) return;
+    if (at.motion == ir::Motion::kThreadIncreasing) {
+      for (const Word& word : words) {
+        if (word.op == WordOp::kAxis) return Refuse(block, word, "a thread with a changing lead");
+      }
+    }
+    if (at.motion != ir::Motion::kThread) return;
+    const Word* axis = nullptr;
+    const Word* feed = nullptr;
+    for (const Word& word : words) {
+      if (word.op == WordOp::kAxis) {
+        if (axis != nullptr) return Refuse(block, word, "a taper thread whose longer side the run decides");
+        axis = &word;
+      }
+      if (word.op == WordOp::kFeed) feed = &word;
+    }
+    if (axis == nullptr) return;
+    if (feed == nullptr) return Refuse(block, *axis, "a thread whose lead stands in another block");
+    if (axis->index > 2) return Refuse(block, *axis, "a thread along this axis");
+    Word lead = *feed;
+    lead.op = WordOp::kCenter;
+    lead.index = axis->index;
+    lead.mode = ir::ValueMode::kStep;
+    lead.phase = ir::DefaultPhaseOf(WordOp::kCenter);
+    lead.spelling = 0;
+    words.push_back(lead);
+  }
+
+  const RaiseInput& input_;
+  Module& module_;
+  diag::Sink& sink_;
+  ir::ExprBuilder make_;
+  ir::analysis::FlowGraphs graphs_;
+  ir::analysis::CallGraph calls_;
+  ir::analysis::ModalFlow flow_;
+  Uses uses_;
+  bool ok_ = true;
+};
+
+}  // namespace
+
+bool ArrangeWords(const RaiseInput& input, Translation& out, diag::Sink& sink) { return Pass(input, out, sink).Run(); }
+
+}  // namespace ncport::backends::sinumerik

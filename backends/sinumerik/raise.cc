@@ -1,0 +1,484 @@
+#include "backends/sinumerik/raise.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "backends/sinumerik/raise_words.h"
+#include "dialects/fanuc/words.h"
+#include "dialects/sinumerik/words.h"
+#include "ir/analysis/call_graph.h"
+#include "ir/builder.h"
+#include "ir/transform/adapt_expressions.h"
+#include "ir/transform/conditional_blocks.h"
+#include "ir/transform/empty_values.h"
+#include "ir/transform/numbers_to_names.h"
+#include "ir/transform/resolve_increments.h"
+#include "ir/transform/resolve_jumps.h"
+#include "ir/transform/rewrite_exprs.h"
+#include "ir/transform/round_words.h"
+#include "ir/transform/split_statements.h"
+
+namespace ncport::backends::sinumerik {
+
+namespace {
+
+using ir::ExprId;
+using ir::ExprOp;
+using ir::Module;
+using ir::Word;
+using ir::WordOp;
+using namespace ir::transform;
+
+constexpr std::string_view kLabelPrefix = "U_L";  // sinumerik-12.1
+
+/// "#100" or "R10" -> 100, 10.
+bool CellNumber(std::string_view text, char space, std::uint32_t& cell) {
+  if (text.empty() || text[0] != space) return false;
+  const char* end = text.data() + text.size();
+  const auto [last, error] = std::from_chars(text.data() + 1, end, cell);
+  return error == std::errc{} && last == end;
+}
+
+/// Names of the programs: those of [programs], else the source's where the target can say it, else one made from its
+/// number: MAIN_1 from O1, SUB_4001 from O4001. An L name would do, but not with parameters behind it (sinumerik-7.1).
+bool NamePrograms(const RaiseInput& input, Translation& out, diag::Sink& sink) {
+  Module& module = out.module;
+  std::set<std::string> taken;
+  std::vector<std::string> names(module.programs.Size());
+  bool ok = true;
+  for (const ir::ProgramId program : module.programs.Ids()) {
+    const std::string source(module.View(module.programs[program].name));
+    const dialects::ProgramMapping* mapping = input.config == nullptr ? nullptr : input.config->FindProgram(source);
+    if (mapping == nullptr) continue;
+    names[program.value] = mapping->targets.front();
+    if (!taken.insert(mapping->targets.front()).second || mapping->targets.size() != 1) {
+      sink.Report(diag::Code::kDoubleName, mapping->at, mapping->targets.front());
+      ok = false;
+    }
+  }
+  const auto is_letter = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_'; };
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  const auto most = static_cast<std::size_t>(input.profile->names.programs.Or(24));
+  for (const ir::ProgramId program : module.programs.Ids()) {
+    std::string& name = names[program.value];
+    if (!name.empty()) continue;
+    const std::string source(module.View(module.programs[program].name));
+    const bool main = module.programs[program].kind == ir::ProgramKind::kMain;
+    std::string wish;
+    for (const char c : source) {
+      if (is_letter(c) || is_digit(c)) wish += c;
+    }
+    const std::size_t digits = wish.find_first_of("0123456789");
+    if (wish.size() < 2 || !is_letter(wish[0]) || !is_letter(wish[1])) {
+      wish = std::string(main ? "MAIN_" : "SUB_") + (digits == std::string::npos ? wish : wish.substr(digits));
+    }
+    if (wish.size() > most) wish.resize(most);
+    name = wish;
+    for (int n = 2; !taken.insert(name).second; ++n) name = fmt::format("{}_{}", wish.substr(0, most - 4), n);
+  }
+  for (const bool main : {true, false}) {
+    for (const ir::ProgramId program : module.programs.Ids()) {
+      if ((module.programs[program].kind == ir::ProgramKind::kMain) != main) continue;
+      out.programs.push_back(
+          {program, std::string(module.View(module.programs[program].name)), names[program.value], main});
+    }
+  }
+  for (const ProgramName& name : out.programs) module.programs[name.program].name = module.strings.Intern(name.target);
+  for (ir::Call& call : module.calls.All()) {
+    if (call.program.Valid()) call.name = module.programs[call.program].name;
+  }
+  return ok;
+}
+
+/// Programs and calls that mean something else on the target.
+bool RefuseFlow(const RaiseInput& input, Translation& out, diag::Sink& sink) {
+  const Module& module = out.module;
+  const ir::analysis::CallGraph calls(module);
+  std::set<std::uint32_t> called;
+  for (const auto& site : calls.AllSites()) {
+    if (site.callee.Valid()) called.insert(site.callee.value);
+  }
+  bool ok = true;
+  for (const ir::ProgramId program : module.programs.Ids()) {
+    const bool main = module.programs[program].kind == ir::ProgramKind::kMain;
+    for (const ir::BlockId id : module.programs[program].blocks) {
+      const ir::Block& block = module.blocks[id];
+      const auto refuse = [&](const Word& word, std::string_view what) {
+        ok = false;
+        sink.Report(diag::Code::kNotExpressible, module.RangeOf(block, word), what, input.profile->name);
+      };
+      if ((block.flags & ir::Block::kRefused) != 0) {
+        ok = false;  // has its finding already
+        continue;
+      }
+      for (const ir::WordId word_id : block.words) {
+        const Word& word = module.words[word_id];
+        switch (word.op) {
+          case WordOp::kProgramEnd:
+            // A called M30 returns like M17 there (sinumerik-1.2).
+            if ((!main || called.contains(program.value)) && !input.source_machine->end_in_called_program_returns)
+              refuse(word, "the end of all programs inside a called one");
+            break;
+          case WordOp::kReturn:
+            if (main && input.source_machine->return_in_main_restarts)
+              refuse(word, "a return that starts the main program again");
+            if (word.value.Valid()) refuse(word, "a return to a block of the caller");
+            break;
+          case WordOp::kRestart:
+            refuse(word, "a start from the beginning");
+            break;
+          case WordOp::kSkipRest:
+            refuse(word, "a skip mark inside a block");
+            break;
+          case WordOp::kModalCall:
+            if (word.Extra<ir::CallId>().Valid()) refuse(word, "a modal macro call");
+            break;
+          case WordOp::kCall: {
+            const ir::Call& call = module.calls[word.Extra<ir::CallId>()];
+            if (call.form != ir::CallForm::kName || call.from_block || call.name_expr.Valid()) {
+              refuse(word, "a call of a computed program or of a block range");
+            } else if (!call.program.Valid()) {
+              ok = false;
+              sink.Report(diag::Code::kUnknownProgram, module.RangeOf(block, word), module.View(call.name));
+            } else if (module.programs[call.program].kind == ir::ProgramKind::kMain) {
+              refuse(word, "a call of the main program");
+            } else if (call.new_level && call.passes.Valid() && input.source_machine->passes_keep_locals) {
+              refuse(word, "a repeated macro call, whose later passes find the locals of the first,");
+            }
+            break;
+          }
+          default:
+            break;
+        }
+      }
+    }
+  }
+  return ok;
+}
+
+/// System variables that have a counterpart; others are known only to their machine.
+bool MapSystemVariables(const RaiseInput& input, Translation& out, diag::Sink& sink) {
+  Module& module = out.module;
+  ir::ExprBuilder make(module);
+  ir::SystemId position;
+  bool ok = true;
+  for (const ir::ProgramId program : module.programs.Ids()) {
+    std::set<std::uint32_t> refused;
+    RewriteProgram(module, program, [&](Module& m, ExprId id) {
+      const ir::Expr expr = m.exprs[id];
+      if (expr.op != ExprOp::kSystem) return id;
+      const ir::System system = m.systems[ir::SystemId{std::size_t{expr.a}}];
+      if (m.View(system.name).starts_with("$")) return id;
+      if (system.kind == ir::SystemKind::kProgrammedPosition && expr.count == 1) {
+        if (!position.Valid()) position = ir::AddSystem(module, "$P_EP", ir::SystemKind::kProgrammedPosition);
+        const auto axis = static_cast<std::uint8_t>(m.exprs[m.Item(expr.b)].a);
+        const ExprId read = make.System(position, {make.AxisName(axis)});
+        const bool diameter =
+            input.source_machine->position_reads_diameter && axis == input.source_machine->transverse_axis;
+        // $P_EP is a radius (sinumerik-8.5 names diameters for $AA_IW only).
+        return diameter ? make.Unary(ExprOp::kGroup, make.Binary(ExprOp::kMultiply, make.Number("2"), read)) : read;
+      }
+      refused.insert(id.value);
+      return id;
+    });
+    if (refused.empty()) continue;
+    for (const ir::BlockId block : module.programs[program].blocks) {
+      for (const ir::WordId word_id : module.blocks[block].words) {
+        const Word& word = module.words[word_id];
+        const auto look = [&](ExprId root) {
+          RewriteExpr(module, root, [&](Module& m, ExprId id) {
+            if (refused.contains(id.value)) {
+              ok = false;
+              sink.Report(diag::Code::kNotExpressible, m.RangeOf(m.blocks[block], word),
+                          fmt::format("the system variable {}",
+                                      m.View(m.systems[ir::SystemId{std::size_t{m.exprs[id].a}}].name)),
+                          input.profile->name);
+            }
+            return id;
+          });
+        };
+        look(word.value);
+        if (word.op == WordOp::kAssign) look(word.Extra<ExprId>());
+      }
+    }
+  }
+  return ok;
+}
+
+NumbersToNamesConfig CellConfig(const RaiseInput& input, const EmptyValuesResult& empty) {
+  NumbersToNamesConfig config;
+  config.letter_of = [](std::uint32_t cell) { return dialects::fanuc::ArgumentLetter(cell); };
+  for (const dialects::VariableSpace& space : input.profile->variables) {
+    if (space.name == config.space) config.cells = {space.range.first, space.range.last};
+  }
+  if (input.config != nullptr) {
+    for (const dialects::WordMapping& pin : input.config->variables) {
+      NumbersToNamesConfig::Pin made;
+      if (CellNumber(pin.source, '#', made.source) && CellNumber(pin.target, 'R', made.target))
+        config.pins.push_back(made);
+    }
+  }
+  config.read_at_entry = empty.read_at_entry;
+  config.written_at_end = empty.written_at_end;
+  return config;
+}
+
+/// What is left must have a form in the target.
+class LegalCheck {
+ public:
+  LegalCheck(const RaiseInput& input, const Module& module, diag::Sink& sink, bool expressions)
+      : input_(input), module_(module), sink_(sink), expressions_(expressions) {}
+
+  bool Run() {
+    for (const ir::ProgramId program : module_.programs.Ids()) {
+      for (const ir::BlockId id : module_.programs[program].blocks) {
+        block_ = &module_.blocks[id];
+        for (const ir::WordId word_id : block_->words) CheckWord(module_.words[word_id]);
+      }
+    }
+    return ok_;
+  }
+
+ private:
+  void Refuse(const Word& word, std::string_view what) {
+    ok_ = false;
+    sink_.Report(diag::Code::kNotExpressible, module_.RangeOf(*block_, word), what, input_.profile->name);
+  }
+
+  void CheckWord(const Word& word) {
+    CheckExpr(word, word.value);
+    switch (word.op) {
+      case WordOp::kAssign:
+        CheckExpr(word, word.Extra<ExprId>());
+        return;
+      case WordOp::kCall:
+      case WordOp::kModalCall:
+        if (!word.Extra<ir::CallId>().Valid()) return;
+        for (const ir::ArgId arg : module_.calls[word.Extra<ir::CallId>()].args)
+          CheckExpr(word, module_.args[arg].value);
+        CheckExpr(word, module_.calls[word.Extra<ir::CallId>()].passes);
+        return;
+      case WordOp::kJump: {
+        const ir::Jump& jump = module_.jumps[word.Extra<ir::JumpId>()];
+        if (jump.target.kind == ir::TargetKind::kExpression) CheckExpr(word, jump.target.expr);
+        return;
+      }
+      case WordOp::kAlarm:
+      case WordOp::kMessage:
+      case WordOp::kStop:
+      case WordOp::kIf:
+      case WordOp::kElse:
+      case WordOp::kEndIf:
+      case WordOp::kWhile:
+      case WordOp::kEndWhile:
+      case WordOp::kLoop:
+      case WordOp::kEndLoop:
+      case WordOp::kReturn:
+      case WordOp::kAux:
+      case WordOp::kHeader:
+      case WordOp::kExtern:
+      case WordOp::kDefine:
+      case WordOp::kDwellSeconds:
+        return;
+      case WordOp::kTool:
+      case WordOp::kToolChange:
+      case WordOp::kReference:
+      case WordOp::kProgramEnd:
+      case WordOp::kWorkOffset:
+        return;  // each has a pass that refuses it
+      case WordOp::kToolOffset:
+      case WordOp::kRadiusOffset:
+      case WordOp::kRestart:
+      case WordOp::kSkipRest:
+        if (!expressions_) return;
+        break;
+      case WordOp::kAxis:
+        if (word.index >= ir::kLetterAxes) Refuse(word, "an axis with a name of its own");
+        if (!HasAxis(word.index)) Refuse(word, "an axis that the target does not have");
+        return;
+      case WordOp::kSpindle:
+      case WordOp::kSpeed:
+      case WordOp::kSpeedLimit:
+        if (word.index > 1) Refuse(word, "a second spindle");
+        return;
+      default:
+        break;
+    }
+    const bool code = dialects::sinumerik::Codes().FindMeaning(word.op, word.index, word.extra) != nullptr;
+    const bool address = dialects::sinumerik::FindAddress(word.op, word.index) != nullptr;
+    if (word.value.Valid() ? !address : !code) {
+      Refuse(word, word.spelling != 0 ? module_.View(module_.spellings[word.spelling].text) : ir::NameOf(word.op));
+    }
+  }
+
+  [[nodiscard]] bool HasAxis(std::uint8_t axis) const {
+    constexpr std::string_view kLetters = "XYZABCUVW";
+    return std::any_of(input_.profile->axes.begin(), input_.profile->axes.end(),
+                       [&](const std::string& name) { return name.size() == 1 && name[0] == kLetters[axis]; });
+  }
+
+  void CheckExpr(const Word& word, ExprId id) {
+    if (!id.Valid() || !expressions_) return;
+    const ir::Expr& expr = module_.exprs[id];
+    switch (expr.op) {
+      case ExprOp::kFunction: {
+        const auto function = static_cast<ir::Function>(expr.a);
+        if (dialects::sinumerik::FindFunction(function) == nullptr && function != ir::Function::kToText)
+          return Refuse(word, fmt::format("the function {}", ir::NameOf(function)));
+        for (std::uint32_t i = 0; i < expr.count; ++i) CheckExpr(word, module_.Item(expr.b + i));
+        return;
+      }
+      case ExprOp::kBitAnd:
+      case ExprOp::kBitOr:
+      case ExprOp::kBitXor:
+        return Refuse(word, "a bit operation on numbers that are not INT");  // sinumerik-4.2
+      case ExprOp::kVacant:
+      case ExprOp::kName:
+        return Refuse(word, ir::NameOf(expr.op));
+      default:
+        break;
+    }
+    if (ir::OperandsOf(expr.op) == ir::Operands::kUnary || ir::OperandsOf(expr.op) == ir::Operands::kBinary)
+      CheckExpr(word, ExprId{std::size_t{expr.a}});
+    if (ir::OperandsOf(expr.op) == ir::Operands::kBinary) CheckExpr(word, ExprId{std::size_t{expr.b}});
+  }
+
+  const RaiseInput& input_;
+  const Module& module_;
+  diag::Sink& sink_;
+  bool expressions_;
+  const ir::Block* block_ = nullptr;
+  bool ok_ = true;
+};
+
+/// Values that the compiler made are printed like any other.
+void ShowImplied(Module& module) {
+  for (ir::Expr& expr : module.exprs.All()) {
+    if (expr.op != ExprOp::kConvert) expr.flags = static_cast<std::uint8_t>(expr.flags & ~ir::Expr::kImplicit);
+  }
+}
+
+/// Brackets around a whole value: the source needs them, here they only stand in the way.
+void DropOuterBrackets(Module& module) {
+  for (Word& word : module.words.All()) {
+    while (word.value.Valid() && module.exprs[word.value].op == ExprOp::kGroup)
+      word.value = ExprId{std::size_t{module.exprs[word.value].a}};
+  }
+}
+
+/// `/` without a number is the first level: 1 there, 0 here (sinumerik-1.3).
+void ShiftSkipLevels(const RaiseInput& input, Module& module) {
+  const std::int64_t shift = input.profile->skip.Or(0) - input.source_profile->skip.Or(0);
+  for (ir::Block& block : module.blocks.All()) {
+    if (block.skip_level == ir::Block::kNoSkip) continue;
+    block.skip_level = static_cast<std::uint8_t>(std::max<std::int64_t>(0, block.skip_level + shift));
+    block.flags = static_cast<std::uint8_t>(block.flags & ~ir::Block::kSkipDigit);
+  }
+}
+
+/// The smaller controls have no structures, parameters or names (sinumerik-11), and between a mill and a lathe the same
+/// word means another axis, plane and tool change: those ways are not built.
+bool CanWrite(const RaiseInput& input, bool same_language, diag::Sink& sink) {
+  using Settings = dialects::SinumerikSettings;
+  const bool full = input.profile->sinumerik.family.Is(Settings::Family::k840D);
+  const bool same_family = same_language && full && input.source_profile->sinumerik.family.Is(Settings::Family::k840D);
+  const bool same_machine = input.source_profile->machine == input.profile->machine;
+  if (full && same_machine && (!same_language || same_family)) return true;
+  auto& finding = sink.Report(diag::Code::kNotExpressible, SourceRange{},
+                              same_machine ? "a program with loops, calls and variables"
+                                           : "a program of a mill on a lathe, or of a lathe on a mill,",
+                              input.profile->name);
+  finding.help = "ncport flatten writes programs of literal blocks";
+  return false;
+}
+
+/// The same language: the text stays as it is.
+bool Copy(Translation& out) {
+  const Module& module = out.module;
+  bool ok = true;
+  for (const bool main : {true, false}) {
+    for (const ir::ProgramId program : module.programs.Ids()) {
+      const ir::Program& record = module.programs[program];
+      if (record.library || (record.kind == ir::ProgramKind::kMain) != main) continue;
+      const std::string name(module.View(record.name));
+      out.programs.push_back({program, name, name, main});
+      for (const ir::BlockId block : record.blocks)
+        ok = ok && (module.blocks[block].flags & ir::Block::kRefused) == 0;  // those have their findings
+    }
+  }
+  out.keeps_files = true;
+  return ok;
+}
+
+}  // namespace
+
+bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
+  out.module = *input.source;
+  const bool same_language = input.source_profile->language == input.profile->language;
+  if (!CanWrite(input, same_language, sink)) return false;
+  if (same_language) return Copy(out);
+  Module& module = out.module;
+  const ir::Machine& machine = *input.source_machine;
+  const ir::ModalState entry = input.config != nullptr ? input.config->entry : ir::ModalState{};
+
+  bool ok = RefuseFlow(input, out, sink);
+  ok = ArrangeTexts(input, out, sink) && ok;
+  // While the source's modes and flags still stand in the words: numbers in their units, rounding where it counts.
+  ok = ResolveIncrements(module, machine, entry, sink) && ok;
+  for (const ir::ProgramId program : module.programs.Ids()) {
+    ConditionalBlocks(module, program, kLabelPrefix);
+    SplitStatements(module, program);
+  }
+  ok = RoundWords(module, machine, entry, sink) && ok;
+  ok = ArrangeWords(input, out, sink) && ok;
+  ok = MapOffsets(input, out, sink) && ok;
+  ok = MapAuxiliaries(input, out, sink) && ok;
+  ok = MapSystemVariables(input, out, sink) && ok;
+  if (!ok) {
+    // Words without a form are named in the same run; what expressions become is not known yet.
+    LegalCheck(input, module, sink, false).Run();
+    return false;
+  }
+
+  // Jumps before emptiness: that pass makes blocks, and only the source's own text decides where a jump goes.
+  for (const ir::ProgramId program : module.programs.Ids())
+    ok = ResolveJumps(module, program, kLabelPrefix, sink) && ok;
+  EmptyValuesConfig empty_config;
+  if (input.config != nullptr) {
+    empty_config.holds_number = [&](std::uint32_t cell) {
+      const std::string name = fmt::format("#{}", cell);
+      return std::any_of(input.config->ranges.begin(), input.config->ranges.end(),
+                         [&](const dialects::ValueRange& range) { return range.name == name; });
+    };
+  }
+  const EmptyValuesResult empty = EmptyValues(module, empty_config, sink);
+  ok = empty.ok && ok;
+  if (!ok) return false;
+
+  AdaptExpressionsConfig expressions;
+  expressions.relative_comparisons = true;
+  expressions.positive_angles = false;
+  expressions.has_atan = false;
+  expressions.has_round_away = false;
+  expressions.has_round_to_increment = false;
+  expressions.modulo_rounds_operands = false;
+  expressions.increment = machine.increment;
+  for (const ir::ProgramId program : module.programs.Ids()) AdaptExpressions(module, program, expressions);
+  ShowImplied(module);
+  DropOuterBrackets(module);
+  ok = NamePrograms(input, out, sink);
+  WriteStartModes(input, out);
+  NumbersToNamesResult names = NumbersToNames(module, CellConfig(input, empty), sink);
+  out.cells = std::move(names.map);
+  DropSpellings(out);
+  ShiftSkipLevels(input, module);
+  return names.ok && LegalCheck(input, module, sink, true).Run() && ok;
+}
+
+}  // namespace ncport::backends::sinumerik

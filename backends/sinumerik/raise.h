@@ -1,0 +1,24 @@
+// Rewrites a module into one that SINUMERIK can say. The list of passes in raise.cc is the documentation of what the
+// target cannot say.
+#pragma once
+
+#include "backends/common/translation.h"
+#include "base/diag/sink.h"
+#include "dialects/config.h"
+#include "dialects/profile.h"
+#include "ir/machine.h"
+
+namespace ncport::backends::sinumerik {
+
+struct RaiseInput {
+  const ir::Module* source = nullptr;
+  const dialects::Profile* source_profile = nullptr;
+  const ir::Machine* source_machine = nullptr;
+  const dialects::Profile* profile = nullptr;  // of the target
+  const dialects::Config* config = nullptr;
+};
+
+/// What cannot be said is a finding (NC6xxx) at its place, several per run; returns false then.
+bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink);
+
+}  // namespace ncport::backends::sinumerik

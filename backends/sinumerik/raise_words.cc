@@ -1,0 +1,347 @@
+#include "backends/sinumerik/raise_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ir/builder.h"
+#include "ir/transform/program_editor.h"
+
+namespace ncport::backends::sinumerik {
+
+namespace {
+
+using ir::Block;
+using ir::BlockId;
+using ir::ExprId;
+using ir::ExprOp;
+using ir::Module;
+using ir::Word;
+using ir::WordId;
+using ir::WordOp;
+using ir::transform::ProgramEditor;
+
+// sinumerik-8.11: alarms 65000 to 65999 stop the program; 0 to 999 of the source fit.
+constexpr std::uint32_t kFirstAlarm = 65000, kLastAlarm = 65999;
+
+/// A literal whole number, or none.
+std::optional<std::uint32_t> WholeNumber(const Module& module, ExprId id) {
+  if (!id.Valid()) return std::nullopt;
+  const ir::Expr& expr = module.exprs[id];
+  if (expr.op == ExprOp::kGroup || expr.op == ExprOp::kConvert) return WholeNumber(module, ExprId{std::size_t{expr.a}});
+  if (expr.op != ExprOp::kLiteral || expr.number < 0 || expr.number != std::floor(expr.number) || expr.number > 4e9)
+    return std::nullopt;
+  return static_cast<std::uint32_t>(expr.number);
+}
+
+/// Number behind a letter: "G505" -> 505.
+std::optional<std::uint32_t> NumberBehind(std::string_view word, char letter) {
+  std::uint32_t number = 0;
+  if (word.size() < 2 || word[0] != letter) return std::nullopt;
+  const char* end = word.data() + word.size();
+  const auto [last, error] = std::from_chars(word.data() + 1, end, number);
+  if (error != std::errc{} || last != end) return std::nullopt;
+  return number;
+}
+
+void AppendText(const Module& module, ExprId id, std::string& out) {
+  if (!id.Valid()) return;
+  const ir::Expr& expr = module.exprs[id];
+  switch (expr.op) {
+    case ExprOp::kText:
+      out += module.View(StringId{std::size_t{expr.a}});
+      return;
+    case ExprOp::kConcat:
+      AppendText(module, ExprId{std::size_t{expr.a}}, out);
+      AppendText(module, ExprId{std::size_t{expr.b}}, out);
+      return;
+    case ExprOp::kCell:
+      out += fmt::format("#{}", expr.b);
+      return;
+    case ExprOp::kFunction:
+      AppendText(module, module.Item(expr.b), out);
+      return;
+    default:
+      out += "..";
+  }
+}
+
+/// A comment at the end of the block behind those that it has.
+void AddComment(Module& module, Block& block, std::string_view text) {
+  IdRange<ir::CommentId> comments{static_cast<std::uint32_t>(module.comments.Size()), block.comments.count + 1};
+  for (const ir::CommentId old : block.comments) {
+    const ir::Comment copy = module.comments[old];
+    module.comments.Add(copy);
+  }
+  ir::Comment comment;
+  comment.text = module.strings.Intern(text);
+  comment.place = ir::CommentPlace::kEndOfBlock;
+  comment.gap = 1;
+  module.comments.Add(comment);
+  block.comments = comments;
+}
+
+Word MakeWord(WordOp op, std::uint8_t index, std::uint32_t extra = Id<void>::kNone) {
+  Word word;
+  word.op = op;
+  word.index = index;
+  word.phase = ir::DefaultPhaseOf(op);
+  word.extra = extra;
+  return word;
+}
+template <class Mode>
+Word ModeWord(WordOp op, Mode mode) {
+  return MakeWord(op, static_cast<std::uint8_t>(mode));
+}
+
+bool SameWords(const Module& module, const Block& block, const std::vector<Word>& words) {
+  if (block.words.count != words.size()) return false;
+  for (std::uint32_t i = 0; i < block.words.count; ++i) {
+    const Word& old = module.words[block.words[i]];
+    const Word& now = words[i];
+    if (old.op != now.op || old.value != now.value || old.extra != now.extra || old.index != now.index) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool ArrangeTexts(const RaiseInput& input, Translation& out, diag::Sink& sink) {
+  Module& module = out.module;
+  ir::ExprBuilder make(module);
+  bool ok = true;
+  for (const ir::ProgramId program : module.programs.Ids()) {
+    ProgramEditor editor(module, program, "arrange_texts");
+    for (const BlockId id : module.programs[program].blocks) {
+      Block block = module.blocks[id];
+      for (const ir::CommentId comment : block.comments) {
+        // `;` runs to the end of the line.
+        if (module.comments[comment].place == ir::CommentPlace::kBeforeWord)
+          module.comments[comment].place = ir::CommentPlace::kEndOfBlock;
+      }
+      std::vector<Word> kept;
+      std::string text;
+      for (const WordId word_id : block.words) {
+        Word word = module.words[word_id];
+        switch (word.op) {
+          case WordOp::kFileMark:
+          case WordOp::kHeader:
+          case WordOp::kInert:  // a word of the source without effect
+            continue;
+          case WordOp::kPrint: {
+            text = "DPRNT ";
+            AppendText(module, word.value, text);
+            out.messages_lost = true;
+            sink.Report(diag::Code::kListedLoss, module.RangeOf(block, word), text, input.profile->name);
+            out.losses.push_back({module.RangeOf(block, word), text});
+            continue;
+          }
+          case WordOp::kMessage:
+            word.extra = Id<void>::kNone;  // the number of the message
+            break;
+          case WordOp::kAlarm: {
+            const auto number = WholeNumber(module, word.value);
+            if (!number || *number > kLastAlarm - kFirstAlarm) {
+              ok = false;
+              sink.Report(diag::Code::kNotExpressible, module.RangeOf(block, word),
+                          number ? "an alarm number above 999" : "a computed alarm number", input.profile->name);
+              break;
+            }
+            const AlarmUse use{*number, kFirstAlarm + *number};
+            const auto known = std::find_if(out.alarms.begin(), out.alarms.end(),
+                                            [&](const AlarmUse& other) { return other.source == use.source; });
+            if (known == out.alarms.end()) out.alarms.push_back(use);
+            word.value = make.Literal(use.target, ir::Type::kInt);
+            break;
+          }
+          default:
+            break;
+        }
+        kept.push_back(word);
+      }
+      if (!text.empty()) {
+        AddComment(module, block, text);
+        module.blocks[id].comments = block.comments;
+      }
+      if (SameWords(module, block, kept)) continue;
+      if (kept.empty() && block.comments.Empty()) {
+        editor.Remove(id);
+        continue;
+      }
+      editor.SetWords(block, kept);
+      module.blocks[id].words = block.words;
+    }
+    editor.Apply();
+  }
+  return ok;
+}
+
+bool MapOffsets(const RaiseInput& input, Translation& out, diag::Sink& sink) {
+  Module& module = out.module;
+  bool ok = true;
+  for (const ir::ProgramId program : module.programs.Ids()) {
+    for (const BlockId id : module.programs[program].blocks) {
+      const Block& block = module.blocks[id];
+      for (const WordId word_id : block.words) {
+        Word& word = module.words[word_id];
+        if (word.op != WordOp::kWorkOffset) continue;
+        OffsetUse use{word.extra, 0, word.extra, 0};
+        std::string name = fmt::format("G{}", word.extra);
+        if (word.value.Valid()) {
+          const auto extension = WholeNumber(module, word.value);
+          if (!extension) {
+            ok = false;
+            sink.Report(diag::Code::kNotExpressible, module.RangeOf(block, word), "a computed work offset",
+                        input.profile->name);
+            continue;
+          }
+          use.source_extension = *extension;
+          name = fmt::format("G54.1 P{}", *extension);
+        }
+        const dialects::WordMapping* mapping = input.config == nullptr ? nullptr : input.config->FindOffset(name);
+        if (mapping != nullptr) {
+          const auto target = NumberBehind(mapping->target, 'G');
+          if (!target || (*target != 500 && (*target < 54 || *target > 57) && (*target < 505 || *target > 599))) {
+            ok = false;
+            sink.Report(diag::Code::kUnmappedOffset, mapping->at, mapping->target).help =
+                "SINUMERIK has G54 to G57 and G505 to G599";
+            continue;
+          }
+          use.target = *target == 500 ? 0 : *target;
+        } else if (word.extra < 54 || word.extra > 57 || word.value.Valid()) {
+          // G58 and G59 are something else there: programmable shifts (sinumerik-8.7).
+          ok = false;
+          sink.Report(diag::Code::kUnmappedOffset, module.RangeOf(block, word), name).help =
+              fmt::format("add to ncport.toml:  [offsets]  \"{}\" = \"G505\"", name);
+          continue;
+        }
+        word.extra = use.target;
+        word.value = {};
+        const auto known = std::find_if(out.offsets.begin(), out.offsets.end(), [&](const OffsetUse& other) {
+          return other.source == use.source && other.source_extension == use.source_extension;
+        });
+        if (known == out.offsets.end()) out.offsets.push_back(use);
+      }
+    }
+  }
+  return ok;
+}
+
+bool MapAuxiliaries(const RaiseInput& input, Translation& out, diag::Sink& sink) {
+  Module& module = out.module;
+  ir::ExprBuilder make(module);
+  bool ok = true;
+  const auto rule_for = [&](std::string_view name) -> const dialects::MCodeRule* {
+    const auto find = [&](const std::vector<dialects::MCodeRule>& rules) {
+      const auto rule =
+          std::find_if(rules.begin(), rules.end(), [&](const dialects::MCodeRule& r) { return r.source == name; });
+      return rule == rules.end() ? nullptr : &*rule;
+    };
+    if (input.config != nullptr) {
+      if (const auto* rule = find(input.config->mcodes)) return rule;
+    }
+    return find(input.profile->mcodes);
+  };
+  for (const ir::ProgramId program : module.programs.Ids()) {
+    for (const BlockId id : module.programs[program].blocks) {
+      const Block block = module.blocks[id];
+      std::vector<Word> kept;
+      bool changed = false;
+      for (const WordId word_id : block.words) {
+        Word word = module.words[word_id];
+        if (word.op != WordOp::kAux) {
+          kept.push_back(word);
+          continue;
+        }
+        const auto number = WholeNumber(module, word.value);
+        const bool common = number && (*number == 7 || *number == 8 || *number == 9);
+        const std::string name = number ? fmt::format("M{}", *number) : std::string("a computed M function");
+        const dialects::MCodeRule* rule = number ? rule_for(name) : nullptr;
+        if (rule == nullptr && !common) {
+          sink.Report(diag::Code::kUnmappedCode, module.RangeOf(block, word), name).help =
+              fmt::format("add to ncport.toml:  [mcodes]  \"{0}\" = \"{0}\"  (pass), another word, or \"drop\"", name);
+          ok = false;
+          continue;
+        }
+        AuxUse use{*number, *number};
+        if (rule != nullptr) {
+          changed = true;
+          const auto target = NumberBehind(rule->target, 'M');
+          if (rule->target == "drop") {
+            use.target.reset();
+            out.losses.push_back({module.RangeOf(block, word), name + " left out, as [mcodes] says"});
+          } else if (target) {
+            use.target = *target;
+            word.value = make.Literal(*target, ir::Type::kInt);
+          } else {
+            ok = false;
+            sink.Report(diag::Code::kUnmappedCode, module.RangeOf(block, word), name).help =
+                "the target of [mcodes] is one M function here";
+          }
+        }
+        if (use.target) kept.push_back(word);
+        out.aux.push_back(use);
+      }
+      if (!changed) continue;
+      module.blocks[id].words = {static_cast<std::uint32_t>(module.words.Size()),
+                                 static_cast<std::uint32_t>(kept.size())};
+      for (const Word& word : kept) module.words.Add(word);
+    }
+  }
+  return ok;
+}
+
+void DropSpellings(Translation& out) {
+  Module& module = out.module;
+  for (Word& word : module.words.All()) {
+    if (word.op == WordOp::kHeader || word.op == WordOp::kDefine) continue;
+    word.spelling = 0;
+    word.digits = 0;
+    word.flags = static_cast<std::uint8_t>(word.flags & ~Word::kEqualSign);
+  }
+  // N010 and N10 are one number to some versions only (sinumerik-6.1).
+  for (Block& block : module.blocks.All()) block.number_digits = 0;
+}
+
+void WriteStartModes(const RaiseInput& input, Translation& out) {
+  Module& module = out.module;
+  const ir::ModalState& start = input.source_machine->start;
+  bool any = false;
+  for (const ir::ProgramId program : module.programs.Ids()) {
+    const IdRange<BlockId> blocks = module.programs[program].blocks;
+    if (module.programs[program].kind != ir::ProgramKind::kMain || blocks.Empty()) continue;
+    ProgramEditor editor(module, program, "start_modes");
+    // G97 and G94 are of one group (15): the feed comes last, and leaves the speed constant.
+    std::vector<Word> speed, modes;
+    if (start.speed_mode != ir::SpeedMode::kUnknown) speed.push_back(ModeWord(WordOp::kSpeedMode, start.speed_mode));
+    if (start.motion != ir::Motion::kUnknown) modes.push_back(ModeWord(WordOp::kMotion, start.motion));
+    if (start.plane != ir::Plane::kUnknown) modes.push_back(ModeWord(WordOp::kPlane, start.plane));
+    if (start.distance != ir::Distance::kUnknown) modes.push_back(ModeWord(WordOp::kDistance, start.distance));
+    if (start.feed_mode != ir::FeedMode::kUnknown) modes.push_back(ModeWord(WordOp::kFeedMode, start.feed_mode));
+    if (start.comp != ir::CutterComp::kUnknown) modes.push_back(ModeWord(WordOp::kCutterComp, start.comp));
+    if (start.units != ir::Units::kUnknown) modes.push_back(ModeWord(WordOp::kUnits, start.units));
+    if (start.path != ir::PathMode::kUnknown) modes.push_back(ModeWord(WordOp::kPathMode, start.path));
+    if (start.work_offset.known) modes.push_back(MakeWord(WordOp::kWorkOffset, 0, start.work_offset.number));
+    if (start.diameter != ir::Diameter::kUnknown) modes.push_back(ModeWord(WordOp::kDiameter, start.diameter));
+    for (const std::vector<Word>* words : {&speed, &modes}) {
+      if (words->empty()) continue;
+      Block made = editor.MakeBlock(blocks[0]);
+      made.flags = Block::kAdded;
+      made.indent = 0;
+      editor.SetWords(made, *words);
+      AddComment(module, made, "added: start of the source control");
+      editor.InsertBefore(blocks[0], made);
+      any = true;
+    }
+    editor.Apply();
+  }
+  if (any) out.added.emplace_back("head of the main program: the modes in which the source control starts");
+}
+
+}  // namespace ncport::backends::sinumerik

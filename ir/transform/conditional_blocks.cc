@@ -1,0 +1,127 @@
+#include "ir/transform/conditional_blocks.h"
+
+#include <fmt/format.h>
+
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ir/builder.h"
+#include "ir/transform/program_editor.h"
+
+namespace ncport::ir::transform {
+
+namespace {
+
+Word MakeWord(WordOp op, ExprId value = {}, std::uint32_t extra = Id<void>::kNone) {
+  Word word;
+  word.op = op;
+  word.phase = DefaultPhaseOf(op);
+  word.value = value;
+  word.extra = extra;
+  return word;
+}
+
+class Pass {
+ public:
+  Pass(Module& module, ProgramId program, std::string_view prefix)
+      : module_(module), program_(program), prefix_(prefix), make_(module), editor_(module, program, "conditions") {}
+
+  void Run() {
+    for (const BlockId id : module_.programs[program_].blocks) {
+      const Block& block = module_.blocks[id];
+      if (block.label.Valid()) labels_.emplace(module_.View(block.label));
+    }
+    for (const BlockId id : module_.programs[program_].blocks) {
+      const Block block = module_.blocks[id];
+      std::vector<Word> before, rest;
+      ExprId condition;
+      for (const WordId word_id : block.words) {
+        const Word word = module_.words[word_id];
+        if (word.op == WordOp::kWhen && !condition.Valid()) {
+          condition = word.value;
+        } else {
+          (condition.Valid() ? rest : before).push_back(word);
+        }
+      }
+      if (condition.Valid()) Split(id, block, before, condition, rest);
+    }
+    editor_.Apply();
+  }
+
+ private:
+  void Split(BlockId id, const Block& block, const std::vector<Word>& before, ExprId condition,
+             std::vector<Word> rest) {
+    // Number, label and comments stay with the first block made.
+    bool first = true;
+    const auto put = [&](const std::vector<Word>& words, bool marks) {
+      Block made = editor_.MakeBlock(id);
+      made.skip_level = block.skip_level;
+      if (std::exchange(first, false)) {
+        // A structure mark carries neither a label nor a number that jumps look for.
+        if (!marks && (block.label.Valid() || block.number != Block::kNoNumber)) {
+          Block place = editor_.MakeBlock(id);
+          place.number = block.number;
+          place.number_digits = block.number_digits;
+          place.label = block.label;
+          editor_.InsertBefore(id, place);
+        } else {
+          made.number = block.number;
+          made.number_digits = block.number_digits;
+          made.label = block.label;
+        }
+        made.comments = block.comments;
+      }
+      editor_.SetWords(made, words);
+      editor_.InsertBefore(id, made);
+    };
+    if (!before.empty()) put(before, true);
+    if (rest.size() == 1 && rest[0].op == WordOp::kJump && !rest[0].value.Valid()) {
+      rest[0].value = condition;
+      put(rest, true);
+    } else if (block.skip_level != Block::kNoSkip) {
+      const StringId label = NewLabel();
+      Jump jump;
+      jump.target.label = label;
+      put({MakeWord(WordOp::kJump, make_.Unary(ExprOp::kNot, make_.Unary(ExprOp::kGroup, condition)),
+                    module_.jumps.Add(jump).value)},
+          true);
+      put(rest, true);
+      Block place = editor_.MakeBlock(id);
+      place.label = label;
+      editor_.InsertBefore(id, place);
+    } else {
+      put({MakeWord(WordOp::kIf, condition)}, false);
+      put(rest, true);
+      put({MakeWord(WordOp::kEndIf)}, false);
+    }
+    module_.blocks[id].comments = {};
+    module_.blocks[id].label = {};
+    module_.blocks[id].number = Block::kNoNumber;
+    editor_.Remove(id);
+  }
+
+  StringId NewLabel() {
+    std::string label;
+    do label = fmt::format("{}{}", prefix_, next_++);
+    while (!labels_.insert(label).second);
+    return module_.strings.Intern(label);
+  }
+
+  Module& module_;
+  ProgramId program_;
+  std::string_view prefix_;
+  ExprBuilder make_;
+  ProgramEditor editor_;
+  std::set<std::string, std::less<>> labels_;
+  int next_ = 1;
+};
+
+}  // namespace
+
+void ConditionalBlocks(Module& module, ProgramId program, std::string_view label_prefix) {
+  Pass(module, program, label_prefix).Run();
+}
+
+}  // namespace ncport::ir::transform

@@ -1,0 +1,165 @@
+#include "ir/transform/resolve_increments.h"
+
+#include <cmath>
+#include <optional>
+
+#include "ir/analysis/call_graph.h"
+#include "ir/analysis/cfg.h"
+#include "ir/analysis/modal_state.h"
+#include "ir/builder.h"
+
+namespace ncport::ir::transform {
+
+namespace {
+
+/// Milliseconds, thousandths of a degree or of a factor: they do not depend on any mode.
+constexpr double kThousandth = 0.001;
+
+class Pass {
+ public:
+  Pass(Module& module, const Machine& source, const ModalState& sub_entry, diag::Sink& sink)
+      : module_(module),
+        source_(source),
+        sink_(sink),
+        make_(module),
+        graphs_(module),
+        calls_(module),
+        flow_(module, source, graphs_, calls_, {source.start, sub_entry}) {}
+
+  bool Run() {
+    for (const ProgramId program : module_.programs.Ids()) {
+      for (const BlockId block : module_.programs[program].blocks) {
+        state_ = flow_.At(program, block);
+        for (const WordId word : module_.blocks[block].words) ResolveWord(block, word);
+      }
+    }
+    return ok_;
+  }
+
+ private:
+  void ResolveWord(BlockId block, WordId id) {
+    Word word = module_.words[id];
+    if (word.op == WordOp::kCall || word.op == WordOp::kModalCall) {
+      if (!word.Extra<CallId>().Valid()) return;
+      for (const ArgId arg : module_.calls[word.Extra<CallId>()].args) ResolveArgument(block, word, arg);
+      return;
+    }
+    if ((word.flags & Word::kIncrements) == 0) return;
+    const std::optional<double> unit = UnitOf(block, word);
+    if (!unit) return;
+    word.value = Scaled(word.value, *unit);
+    word.flags = static_cast<std::uint8_t>(word.flags & ~Word::kIncrements);
+    module_.words[id] = word;
+  }
+
+  void ResolveArgument(BlockId block, const Word& word, ArgId id) {
+    Arg arg = module_.args[id];
+    if (!arg.increments) return;
+    const bool rotary = arg.letter == 'A' || arg.letter == 'B' || arg.letter == 'C';
+    const std::optional<double> unit = rotary ? source_.increment : LengthUnit(block, word);
+    if (!unit) return;
+    arg.value = Scaled(arg.value, *unit);
+    arg.increments = false;
+    module_.args[id] = arg;
+  }
+
+  std::optional<double> UnitOf(BlockId block, const Word& word) {
+    switch (word.op) {
+      case WordOp::kDwellSeconds:
+      case WordOp::kStartAngle:
+      case WordOp::kFrameFactor:
+        return kThousandth;
+      case WordOp::kCycleValue:
+        if (word.index == static_cast<std::uint8_t>(CycleField::kDwell)) return kThousandth;
+        return LengthUnit(block, word);
+      case WordOp::kFrameAngle:
+      case WordOp::kContourAngle:
+        return source_.increment;
+      case WordOp::kFeed:
+        return FeedUnit(block, word);
+      case WordOp::kAxis:
+        if (IsRotary(word.index)) return source_.increment;
+        return LengthUnit(block, word);
+      default:
+        return LengthUnit(block, word);
+    }
+  }
+
+  /// Of a length: the least input increment, a tenth of its number under inch.
+  std::optional<double> LengthUnit(BlockId block, const Word& word) {
+    switch (state_.units) {
+      case Units::kMm:
+      case Units::kMmGeometry:
+        return source_.increment;
+      case Units::kInch:
+      case Units::kInchGeometry:
+        return source_.increment / 10;
+      case Units::kUnknown:
+        break;
+    }
+    return Unknown(block, word, "the unit of lengths (mm or inch)");
+  }
+
+  std::optional<double> FeedUnit(BlockId block, const Word& word) {
+    const NumberUnits& units = source_.units;
+    const auto of = [&](bool revolution, bool inch) {
+      if (revolution) return inch ? units.feed_per_revolution_inch : units.feed_per_revolution;
+      return inch ? units.feed_per_minute_inch : units.feed_per_minute;
+    };
+    const bool thread = state_.motion == Motion::kThread || state_.motion == Motion::kThreadIncreasing;
+    if (!thread && state_.feed_mode == FeedMode::kInverseTime) return 1.0;
+    const bool minute = !thread && state_.feed_mode != FeedMode::kPerRevolution;
+    const bool revolution = thread || state_.feed_mode != FeedMode::kPerMinute;
+    const bool inch = state_.units != Units::kMm && state_.units != Units::kMmGeometry;
+    const bool mm = state_.units != Units::kInch && state_.units != Units::kInchGeometry;
+    std::optional<double> unit;
+    for (const bool per_revolution : {false, true}) {
+      if (per_revolution ? !revolution : !minute) continue;
+      for (const bool in_inch : {false, true}) {
+        if (in_inch ? !inch : !mm) continue;
+        const double here = of(per_revolution, in_inch);
+        if (unit && *unit != here) return Unknown(block, word, "the unit of the feed");
+        unit = here;
+      }
+    }
+    return unit;
+  }
+
+  std::nullopt_t Unknown(BlockId block, const Word& word, std::string_view what) {
+    ok_ = false;
+    sink_.Report(diag::Code::kUnknownModalState, module_.RangeOf(module_.blocks[block], word), what,
+                 "a number without decimal point counts in it");
+    return std::nullopt;
+  }
+
+  /// The literal keeps its digits where nothing changes.
+  ExprId Scaled(ExprId value, double unit) {
+    if (unit == 1) return value;
+    const Expr expr = module_.exprs[value];
+    if (expr.op == ExprOp::kLiteral) {
+      // Steps are powers of ten: the quotient of two whole numbers is the nearest double of the decimal number.
+      const double steps = std::round(1 / unit);
+      const bool exact = std::fabs(steps * unit - 1) < 1e-12;
+      return make_.Literal(exact ? expr.number / steps : expr.number * unit);
+    }
+    return make_.Binary(ExprOp::kMultiply, value, make_.Literal(unit), expr.flags);
+  }
+
+  Module& module_;
+  const Machine& source_;
+  diag::Sink& sink_;
+  ExprBuilder make_;
+  analysis::FlowGraphs graphs_;
+  analysis::CallGraph calls_;
+  analysis::ModalFlow flow_;
+  ModalState state_;
+  bool ok_ = true;
+};
+
+}  // namespace
+
+bool ResolveIncrements(Module& module, const Machine& source, const ModalState& sub_entry, diag::Sink& sink) {
+  return Pass(module, source, sub_entry, sink).Run();
+}
+
+}  // namespace ncport::ir::transform

@@ -1,0 +1,119 @@
+#include "ir/transform/round_words.h"
+
+#include <optional>
+
+#include "ir/analysis/call_graph.h"
+#include "ir/analysis/cfg.h"
+#include "ir/analysis/modal_state.h"
+#include "ir/builder.h"
+#include "ir/transform/adapt_expressions.h"
+
+namespace ncport::ir::transform {
+
+namespace {
+
+class Pass {
+ public:
+  Pass(Module& module, const Machine& source, const ModalState& sub_entry, diag::Sink& sink)
+      : module_(module),
+        source_(source),
+        sink_(sink),
+        graphs_(module),
+        calls_(module),
+        flow_(module, source, graphs_, calls_, {source.start, sub_entry}) {}
+
+  bool Run() {
+    everywhere_ = ReadsPositions() || HasArcToPoint();
+    for (const ProgramId program : module_.programs.Ids()) {
+      for (const BlockId block : module_.programs[program].blocks) {
+        state_ = flow_.At(program, block);
+        for (const WordId word : module_.blocks[block].words) RoundWord(block, word);
+      }
+    }
+    return ok_;
+  }
+
+ private:
+  [[nodiscard]] bool ReadsPositions() const {
+    for (const Expr& expr : module_.exprs.All()) {
+      if (expr.op == ExprOp::kSystem &&
+          module_.systems[SystemId{std::size_t{expr.a}}].kind == SystemKind::kProgrammedPosition)
+        return true;
+    }
+    return false;
+  }
+
+  /// An arc with an end point: whether it is a full circle, and where its centre lies, hangs on the exact positions.
+  [[nodiscard]] bool HasArcToPoint() const {
+    for (const ProgramId program : module_.programs.Ids()) {
+      for (const BlockId block : module_.programs[program].blocks) {
+        const Motion motion = flow_.At(program, block).motion;
+        if (motion != Motion::kArcCw && motion != Motion::kArcCcw && motion != Motion::kUnknown) continue;
+        for (const WordId word : module_.blocks[block].words) {
+          if (module_.words[word].op == WordOp::kAxis) return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  void RoundWord(BlockId block, WordId id) {
+    Word word = module_.words[id];
+    if ((word.flags & Word::kRoundsValue) == 0) return;
+    word.flags = static_cast<std::uint8_t>(word.flags & ~Word::kRoundsValue);
+    switch (word.op) {
+      case WordOp::kSpeed:
+        // A whole number.
+        word.value = ExprBuilder(module_).Function(Function::kRound, {word.value});
+        break;
+      case WordOp::kAxis: {
+        const bool absolute = word.mode == ValueMode::kAbsolute ||
+                              (word.mode == ValueMode::kModal && state_.distance == Distance::kAbsolute);
+        if (absolute && !everywhere_) break;
+        const std::optional<double> step = StepOf(block, word);
+        if (step) word.value = RoundedTo(module_, word.value, *step);
+        break;
+      }
+      case WordOp::kCenter:
+      case WordOp::kRadius: {
+        const std::optional<double> step = StepOf(block, word);
+        if (step) word.value = RoundedTo(module_, word.value, *step);
+        break;
+      }
+      default:
+        break;
+    }
+    module_.words[id] = word;
+  }
+
+  std::optional<double> StepOf(BlockId block, const Word& word) {
+    if (source_.word_error == WordError::kNone) return std::nullopt;
+    if (source_.word_error == WordError::kRound) {
+      if (word.op == WordOp::kAxis && IsRotary(word.index)) return source_.increment;
+      if (state_.units == Units::kMm || state_.units == Units::kMmGeometry) return source_.increment;
+      if (state_.units == Units::kInch || state_.units == Units::kInchGeometry) return source_.increment / 10;
+    }
+    ok_ = false;
+    sink_.Report(diag::Code::kUnknownModalState, module_.RangeOf(module_.blocks[block], word),
+                 "the unit of lengths (mm or inch)", "the control rounds this word to it");
+    return std::nullopt;
+  }
+
+  Module& module_;
+  const Machine& source_;
+  diag::Sink& sink_;
+  analysis::FlowGraphs graphs_;
+  analysis::CallGraph calls_;
+  analysis::ModalFlow flow_;
+  ModalState state_;
+  bool everywhere_ = false;
+  bool ok_ = true;
+};
+
+}  // namespace
+
+bool RoundWords(Module& module, const Machine& source, const ModalState& sub_entry, diag::Sink& sink) {
+  return Pass(module, source, sub_entry, sink).Run();
+}
+
+}  // namespace ncport::ir::transform

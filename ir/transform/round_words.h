@@ -1,0 +1,16 @@
+// Controls that round each computed word on its way to the axis, against targets that do not: the rounding is written
+// out where it changes what happens. A single absolute word may differ by the error of one word (contracts section 6),
+// but increments would drift, an arc could become a full circle, and positions that are read back feed on.
+#pragma once
+
+#include "base/diag/sink.h"
+#include "ir/machine.h"
+#include "ir/module.h"
+
+namespace ncport::ir::transform {
+
+/// All programs of the module; afterwards no word has kRoundsValue. An increment whose unit (mm, inch) or distance mode
+/// is not one value is a finding (NC5006); returns false then.
+bool RoundWords(Module& module, const Machine& source, const ModalState& sub_entry, diag::Sink& sink);
+
+}  // namespace ncport::ir::transform

@@ -156,15 +156,22 @@ void Stage::Unpoison() {
 }
 
 bool IsBranch(const ir::Module& module, const ir::Block& block) {
+  const auto is_literal = [&](ir::ExprId id) {
+    while (module.exprs[id].op == ir::ExprOp::kConvert || module.exprs[id].op == ir::ExprOp::kGroup)
+      id = ir::ExprId{module.exprs[id].a};
+    return module.exprs[id].op == ir::ExprOp::kLiteral;
+  };
   for (const ir::WordId id : block.words) {
     const ir::Word& word = module.words[id];
     switch (word.op) {
       case ir::WordOp::kIf:
       case ir::WordOp::kWhile:
       case ir::WordOp::kUntil:
-      case ir::WordOp::kFor:
       case ir::WordOp::kWhen:
-        return module.exprs[word.value].op != ir::ExprOp::kLiteral || word.op == ir::WordOp::kFor;
+        return !is_literal(word.value);
+      case ir::WordOp::kFor:
+        // Whether it runs at all is a branch; with literal bounds nothing is open.
+        return !is_literal(word.value) || !is_literal(module.fors[word.Extra<ir::ForId>()].end);
       case ir::WordOp::kJump:
         if (word.value.Valid()) return true;
         break;

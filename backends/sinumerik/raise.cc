@@ -422,7 +422,11 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   out.module = *input.source;
   const bool same_language = input.source_profile->language == input.profile->language;
   if (!CanWrite(input, same_language, sink)) return false;
-  if (same_language) return Copy(out);
+  if (same_language) {
+    if (!Copy(out)) return false;
+    WriteStartModes(input, out, true);
+    return true;
+  }
   Module& module = out.module;
   const ir::Machine& machine = *input.source_machine;
   const ir::ModalState entry = input.config != nullptr ? input.config->entry : ir::ModalState{};
@@ -473,7 +477,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   ShowImplied(module);
   DropOuterBrackets(module);
   ok = NamePrograms(input, out, sink);
-  WriteStartModes(input, out);
+  WriteStartModes(input, out, false);
   NumbersToNamesResult names = NumbersToNames(module, CellConfig(input, empty), sink);
   out.cells = std::move(names.map);
   DropSpellings(out);

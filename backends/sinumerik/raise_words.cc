@@ -87,19 +87,6 @@ void AddComment(Module& module, Block& block, std::string_view text) {
   block.comments = comments;
 }
 
-Word MakeWord(WordOp op, std::uint8_t index, std::uint32_t extra = Id<void>::kNone) {
-  Word word;
-  word.op = op;
-  word.index = index;
-  word.phase = ir::DefaultPhaseOf(op);
-  word.extra = extra;
-  return word;
-}
-template <class Mode>
-Word ModeWord(WordOp op, Mode mode) {
-  return MakeWord(op, static_cast<std::uint8_t>(mode));
-}
-
 bool SameWords(const Module& module, const Block& block, const std::vector<Word>& words) {
   if (block.words.count != words.size()) return false;
   for (std::uint32_t i = 0; i < block.words.count; ++i) {
@@ -307,41 +294,6 @@ void DropSpellings(Translation& out) {
   }
   // N010 and N10 are one number to some versions only (sinumerik-6.1).
   for (Block& block : module.blocks.All()) block.number_digits = 0;
-}
-
-void WriteStartModes(const RaiseInput& input, Translation& out) {
-  Module& module = out.module;
-  const ir::ModalState& start = input.source_machine->start;
-  bool any = false;
-  for (const ir::ProgramId program : module.programs.Ids()) {
-    const IdRange<BlockId> blocks = module.programs[program].blocks;
-    if (module.programs[program].kind != ir::ProgramKind::kMain || blocks.Empty()) continue;
-    ProgramEditor editor(module, program, "start_modes");
-    // G97 and G94 are of one group (15): the feed comes last, and leaves the speed constant.
-    std::vector<Word> speed, modes;
-    if (start.speed_mode != ir::SpeedMode::kUnknown) speed.push_back(ModeWord(WordOp::kSpeedMode, start.speed_mode));
-    if (start.motion != ir::Motion::kUnknown) modes.push_back(ModeWord(WordOp::kMotion, start.motion));
-    if (start.plane != ir::Plane::kUnknown) modes.push_back(ModeWord(WordOp::kPlane, start.plane));
-    if (start.distance != ir::Distance::kUnknown) modes.push_back(ModeWord(WordOp::kDistance, start.distance));
-    if (start.feed_mode != ir::FeedMode::kUnknown) modes.push_back(ModeWord(WordOp::kFeedMode, start.feed_mode));
-    if (start.comp != ir::CutterComp::kUnknown) modes.push_back(ModeWord(WordOp::kCutterComp, start.comp));
-    if (start.units != ir::Units::kUnknown) modes.push_back(ModeWord(WordOp::kUnits, start.units));
-    if (start.path != ir::PathMode::kUnknown) modes.push_back(ModeWord(WordOp::kPathMode, start.path));
-    if (start.work_offset.known) modes.push_back(MakeWord(WordOp::kWorkOffset, 0, start.work_offset.number));
-    if (start.diameter != ir::Diameter::kUnknown) modes.push_back(ModeWord(WordOp::kDiameter, start.diameter));
-    for (const std::vector<Word>* words : {&speed, &modes}) {
-      if (words->empty()) continue;
-      Block made = editor.MakeBlock(blocks[0]);
-      made.flags = Block::kAdded;
-      made.indent = 0;
-      editor.SetWords(made, *words);
-      AddComment(module, made, "added: start of the source control");
-      editor.InsertBefore(blocks[0], made);
-      any = true;
-    }
-    editor.Apply();
-  }
-  if (any) out.added.emplace_back("head of the main program: the modes in which the source control starts");
 }
 
 }  // namespace ncport::backends::sinumerik

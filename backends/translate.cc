@@ -5,6 +5,7 @@
 #include "backends/sinumerik/raise.h"
 #include "backends/sinumerik/write.h"
 #include "base/result.h"
+#include "dialects/fanuc/words.h"
 
 namespace ncport::backends {
 
@@ -13,8 +14,10 @@ bool Raise(const TranslateInput& input, Translation& translation, diag::Sink& si
     case dialects::Language::kFanuc:
       return fanuc::Raise({input.source, input.source_machine, input.to, input.config}, translation, sink);
     case dialects::Language::kSinumerik:
-      return sinumerik::Raise({input.source, input.from, input.source_machine, input.to, input.config}, translation,
-                              sink);
+      return sinumerik::Raise(
+          {input.source, input.from, input.source_machine, input.to, input.config,
+           input.from->language == dialects::Language::kFanuc ? dialects::fanuc::ArgumentLetter : nullptr},
+          translation, sink);
     default:
       break;
   }

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "backends/sinumerik/raise_words.h"
-#include "dialects/fanuc/words.h"
 #include "dialects/sinumerik/words.h"
 #include "ir/analysis/call_graph.h"
 #include "ir/builder.h"
@@ -213,7 +212,7 @@ bool MapSystemVariables(const RaiseInput& input, Translation& out, diag::Sink& s
 
 NumbersToNamesConfig CellConfig(const RaiseInput& input, const EmptyValuesResult& empty) {
   NumbersToNamesConfig config;
-  config.letter_of = [](std::uint32_t cell) { return dialects::fanuc::ArgumentLetter(cell); };
+  config.letter_of = input.argument_letter;
   for (const dialects::VariableSpace& space : input.profile->variables) {
     if (space.name == config.space) config.cells = {space.range.first, space.range.last};
   }

@@ -2,6 +2,8 @@
 // target cannot say.
 #pragma once
 
+#include <cstdint>
+
 #include "backends/common/translation.h"
 #include "base/diag/sink.h"
 #include "dialects/config.h"
@@ -16,6 +18,8 @@ struct RaiseInput {
   const ir::Machine* source_machine = nullptr;
   const dialects::Profile* profile = nullptr;  // of the target
   const dialects::Config* config = nullptr;
+  /// Letter by which calls of the source reach a local cell; 0 = none reaches it. Null: the source has no letters.
+  char (*argument_letter)(std::uint32_t cell) = nullptr;
 };
 
 /// What cannot be said is a finding (NC6xxx) at its place, several per run; returns false then.

@@ -1,11 +1,11 @@
 #include "backends/translate.h"
 
+#include "backends/fanuc/argument_letter.h"
 #include "backends/fanuc/raise.h"
 #include "backends/fanuc/write.h"
 #include "backends/sinumerik/raise.h"
 #include "backends/sinumerik/write.h"
 #include "base/result.h"
-#include "dialects/fanuc/words.h"
 
 namespace ncport::backends {
 
@@ -14,10 +14,9 @@ bool Raise(const TranslateInput& input, Translation& translation, diag::Sink& si
     case dialects::Language::kFanuc:
       return fanuc::Raise({input.source, input.source_machine, input.to, input.config}, translation, sink);
     case dialects::Language::kSinumerik:
-      return sinumerik::Raise(
-          {input.source, input.from, input.source_machine, input.to, input.config,
-           input.from->language == dialects::Language::kFanuc ? dialects::fanuc::ArgumentLetter : nullptr},
-          translation, sink);
+      return sinumerik::Raise({input.source, input.from, input.source_machine, input.to, input.config,
+                               input.from->language == dialects::Language::kFanuc ? fanuc::ArgumentLetter : nullptr},
+                              translation, sink);
     default:
       break;
   }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <set>
@@ -8,12 +9,30 @@
 
 #include "app/ncport.h"
 #include "app/pipeline.h"
-#include "check/labels.h"
+#include "check/rules.h"
 
 namespace ncport {
 namespace {
 
 constexpr std::string_view kIgnoreMark = "ncport: ignore";
+
+/// Codes that `list` names and that no diagnostic begins with are wrong usage (contracts section 2).
+Status KnownCodes(const std::vector<std::string>& list, std::string_view option, diag::Sink& sink) {
+  Status ok;
+  for (const std::string& code : list) {
+    bool known = code.size() > 2;
+    if (known) {
+      const auto& all = diag::AllInfos();
+      known =
+          std::any_of(all.begin(), all.end(), [&](const diag::Info& info) { return info.number.starts_with(code); });
+    }
+    if (known) continue;
+    sink.Report(diag::Code::kBadOption, SourceRange{}, std::string(option), "there is no diagnostic " + code).help =
+        "`ncport list rules` shows all";
+    ok = Failure{};
+  }
+  return ok;
+}
 
 bool MatchesAny(std::string_view number, const std::vector<std::string>& codes) {
   for (const std::string& code : codes) {
@@ -73,16 +92,34 @@ Ignores CollectIgnores(const SourceFiles& files, const ir::Module& module) {
   return ignores;
 }
 
+/// One wrong block gives one finding: its first error, and no warnings beside an error. What the options leave out
+/// still counts, so that the findings of a block do not depend on them.
+void OneABlock(diag::Sink& findings) {
+  using Line = std::pair<std::uint32_t, std::uint32_t>;
+  const auto line_of = [](const diag::Diagnostic& finding) { return Line{finding.at.file.value, finding.at.line}; };
+  std::map<Line, const diag::Diagnostic*> errors;
+  for (const diag::Diagnostic& finding : findings.All()) {
+    if (finding.at.Valid() && finding.severity == diag::Severity::kError)
+      errors.try_emplace(line_of(finding), &finding);
+  }
+  findings.Remove([&](const diag::Diagnostic& finding) {
+    if (!finding.at.Valid()) return false;
+    const auto error = errors.find(line_of(finding));
+    return error != errors.end() && error->second != &finding;
+  });
+}
+
 }  // namespace
 
 Status Check(Context& context, const std::vector<Input>& inputs, const CheckOptions& options) {
+  Status known = KnownCodes(options.select, "select", context.findings);
+  known &= KnownCodes(options.ignore, "ignore", context.findings);
+  NCPORT_TRY(known);
   app::ProgramSet set;
-  (void)app::ReadSet(context, inputs, options, app::ProfileNeed::kGuess, set);
-
-  for (const ir::ProgramId program : set.module.programs.Ids()) {
-    if (!set.module.programs[program].library)
-      check::CheckLabels(set.module, program, set.profile.names.ignore_case.Or(true), context.findings);
-  }
+  const Status read = app::ReadSet(context, inputs, options, app::ProfileNeed::kGuess, set);
+  if (set.inputs.empty()) return read & Failure{};
+  const ir::ModalState entry = options.config != nullptr ? options.config->entry : ir::ModalState{};
+  check::CheckPrograms(check::Subject(set.module, set.profile, entry), context.findings);
 
   Ignores ignores = CollectIgnores(context.files, set.module);
   context.findings.Remove([&](const diag::Diagnostic& finding) {
@@ -99,6 +136,8 @@ Status Check(Context& context, const std::vector<Input>& inputs, const CheckOpti
       context.findings.Report(diag::Code::kUselessIgnore, ignore.at).help =
           "take " + ignore.code + " out of the comment";
   }
+
+  OneABlock(context.findings);
 
   context.findings.Remove([&](const diag::Diagnostic& finding) {
     const std::string_view number = diag::InfoOf(finding.code).number;

@@ -20,6 +20,7 @@ struct Mark {
 };
 
 constexpr std::uint8_t kKinds = 5;
+constexpr std::size_t kMostMatched = 16;   // wrong ends that are matched with openers: a slip, no other language
 constexpr std::uint8_t kAnyNumber = 0xFF;  // DO number of a mark that could not be read
 constexpr WordOp kOpeners[kKinds] = {WordOp::kIf, WordOp::kWhile, WordOp::kLoop, WordOp::kRepeat, WordOp::kFor};
 constexpr WordOp kClosers[kKinds] = {WordOp::kEndIf, WordOp::kEndWhile, WordOp::kEndLoop, WordOp::kUntil,
@@ -59,6 +60,7 @@ class Builder {
       }
     }
     while (!open_.empty()) DropTop({}, {});
+    for (const StrayEnd& stray : strays_) ReportStray(stray);
     for (const DroppedOfKey& list : dropped_) {
       for (const Dropped& entry : list.entries) ReportUnclosed(entry);
     }
@@ -77,6 +79,12 @@ class Builder {
     WordId word;
     BlockId ended_by;  // none: the end of the program
     WordId ended_by_word;
+  };
+
+  struct StrayEnd {
+    BlockId block;
+    WordId word;
+    std::uint8_t kind;
   };
 
   [[nodiscard]] WordId FindMark(const Block& block) const {
@@ -159,7 +167,7 @@ class Builder {
   void CloseWithoutOpener(BlockId block, WordId word, std::uint8_t kind, std::uint32_t key) {
     auto* const dropped = FindDropped(key);
     if (dropped == nullptr) {
-      Stray(block, word, kind);
+      strays_.push_back({block, word, kind});
       return;
     }
     // The opener is there, but a mark between ended it: one finding for the crossing, at the mark that crosses.
@@ -200,6 +208,32 @@ class Builder {
     Refuse(block);
     return sink_.Report(diag::Code::kStrayStructureEnd, RangeOf(block, word), TextOf(word),
                         TextOfOp(kOpeners[kind], module_.words[word]));
+  }
+
+  /// An end without its opener. Where an opener before it has no end either, the end word is the wrong one: one finding
+  /// for both.
+  void ReportStray(const StrayEnd& stray) {
+    auto& finding = Stray(stray.block, stray.word, stray.kind);
+    DroppedOfKey* list = nullptr;  // of the nearest such opener
+    std::size_t at = 0;
+    for (DroppedOfKey& candidate : dropped_) {
+      if (strays_.size() > kMostMatched) break;
+      for (std::size_t i = 0; i < candidate.entries.size(); ++i) {
+        const Dropped& entry = candidate.entries[i];
+        if (!(entry.block < stray.block) || module_.words[entry.word].op == WordOp::kVerbatim) continue;
+        if (list != nullptr && entry.block < list->entries[at].block) continue;
+        list = &candidate;
+        at = i;
+      }
+    }
+    if (list == nullptr) return;
+    const Dropped entry = list->entries[at];
+    list->entries.erase(list->entries.begin() + static_cast<std::ptrdiff_t>(at));
+    const Word& opener = module_.words[entry.word];
+    const std::string end = TextOfOp(kClosers[MarkOf(OpOf(opener)).kind], opener);
+    finding.notes.push_back(
+        {RangeOf(entry.block, entry.word), fmt::format("{} opens here and has no {}", TextOf(entry.word), end)});
+    finding.help = fmt::format("did you mean {}?", end);
   }
 
   void ReportUnclosed(const Dropped& entry) {
@@ -283,6 +317,7 @@ class Builder {
   std::array<std::uint32_t, kKinds * 256> counts_{};  // open structures per key
   std::array<std::uint32_t, kKinds> kind_counts_{};   // and per kind
   std::vector<DroppedOfKey> dropped_;
+  std::vector<StrayEnd> strays_;
   std::array<std::string, 256> op_texts_;
 };
 

@@ -9,6 +9,7 @@
 #include "frontend/common/report_line_error.h"
 #include "frontend/common/reserve.h"
 #include "frontend/common/shape_cache.h"
+#include "frontend/sinumerik/hints.h"
 #include "frontend/sinumerik/lower.h"
 #include "frontend/sinumerik/parser.h"
 #include "frontend/sinumerik/reader_state.h"
@@ -224,6 +225,7 @@ class Reader {
     if (!tokens.empty() || source_.Error() != nullptr) {
       lowering_.ReplayHead(tokens, block);
       if (const LineError* error = Words(text, line, block)) {
+        error = ExplainLines(*error, text, line);
         ReportLineError(*error, text, {file_, line, 0, 0}, sink_);
         Refuse(text, block, HeadEnd(tokens, source_.Indent()));
       }
@@ -235,11 +237,19 @@ class Reader {
   // Words of the block; null = done, else why not. What was added is then taken back.
   const LineError* Words(std::string_view text, std::uint32_t line, ir::Block& block) {
     const std::span<const Token> tokens = source_.Tokens();
-    if (source_.Error() != nullptr) return source_.Error();
+    if (source_.Error() != nullptr) {
+      error_ = *source_.Error();
+      ExplainWord(text, error_, help_);
+      return &error_;
+    }
     if (const Token* refused = source_.Refused()) {
       const bool other_language = IsWord(text.substr(refused->offset, refused->length), "G291");
       state_.other_language = other_language;
-      error_ = {.code = other_language ? Code::kOtherLanguage : Code::kNotSupported,
+      // A word of the control where a definition wants a new name.
+      const bool named = tokens.size() > 1 && static_cast<K>(tokens.front().kind) == K::kDef;
+      error_ = {.code = other_language ? Code::kOtherLanguage
+                        : named        ? Code::kReservedName
+                                       : Code::kNotSupported,
                 .begin = refused->offset,
                 .length = refused->length};
       return &error_;
@@ -253,6 +263,9 @@ class Reader {
                 .length = at_end ? 0 : tokens[recipe.error.token].length,
                 .help = recipe.error.help,
                 .detail = recipe.error.expected};
+      if (error_.help == nullptr || error_.code == Code::kNotAlone) {
+        ExplainSyntax(tokens, recipe.error.token, text, error_, help_);
+      }
       return &error_;
     }
     const ModuleMark mark(module_);
@@ -267,6 +280,22 @@ class Reader {
     }
     if (state_.definitions_open && !lowering_.OnlyDefinitions()) CloseDefinitions(block);
     return nullptr;
+  }
+
+  /// Lines that belong together but cannot: there is no continuation line.
+  const LineError* ExplainLines(const LineError& error, std::string_view text, std::uint32_t line) {
+    const bool second = broken_line_ != 0 && broken_line_ + 1 == line;
+    const bool goes_on = GoesOn(text);
+    if (!second && !goes_on) return &error;
+    error_ = error;
+    if (second) {
+      ExplainSecondLine(files_.Line(file_, broken_line_), broken_line_, text, error_, help_);
+    } else {
+      help_ = "a block ends with its line: write what stands in the next line behind it";
+      error_.help = help_.c_str();
+    }
+    broken_line_ = goes_on ? line : 0;
+    return &error_;
   }
 
   const Recipe& RecipeOf(std::span<const Token> tokens) {
@@ -340,6 +369,8 @@ class Reader {
   BlockParser parser_;
   Recipe uncached_;
   LineError error_;
+  std::string help_;               // of error_
+  std::uint32_t broken_line_ = 0;  // line that went on in the next one; 0 = none
 };
 
 }  // namespace

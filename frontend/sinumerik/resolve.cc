@@ -5,6 +5,7 @@
 #include "base/near_name.h"
 #include "base/result.h"
 #include "dialects/sinumerik/library.h"
+#include "dialects/sinumerik/words.h"
 #include "frontend/common/chars.h"
 #include "frontend/reader.h"
 #include "frontend/sinumerik/reader.h"
@@ -149,6 +150,8 @@ bool Resolver::FindAxis(std::string_view name, std::uint8_t& axis) const {
 }
 
 bool Resolver::UnknownName(ExprId id, std::string_view name) {
+  // The definition has its finding; the blocks that use the name need none.
+  if (refused_names_.contains(UpperOf(name))) return false;
   diag::Diagnostic& finding = sink_.Report(Code::kUnknownName, module_.RangeOf(module_.blocks[block_], id), name);
   std::vector<std::string_view> known;
   for (const auto& [key, variable] : variables_) {
@@ -179,9 +182,33 @@ void Resolver::CollectLabels(ir::ProgramId program) {
   }
 }
 
+// Names that a refused DEF or PROC may have declared.
+void Resolver::CollectRefusedNames(ir::ProgramId program) {
+  refused_names_.clear();
+  for (const ir::BlockId id : module_.programs[program].blocks) {
+    const ir::Block& block = module_.blocks[id];
+    if (block.words.Empty() || module_.words[block.words[0]].op != WordOp::kVerbatim) continue;
+    const std::string text = UpperOf(module_.View(module_.words[block.words[0]].Extra<StringId>()));
+    // Also the second line of a list of parameters that was broken in two.
+    bool declares = text.starts_with("DEF") || text.starts_with("PROC");
+    for (const auto& row : dialects::sinumerik::Types()) declares = declares || text.starts_with(row.text);
+    if (!declares) continue;
+    std::string name;
+    for (const char c : text + " ") {
+      if (IsLetter(c) || IsDigit(c) || c == '_') {
+        name += c;
+      } else if (!name.empty()) {
+        refused_names_.insert(std::move(name));
+        name.clear();
+      }
+    }
+  }
+}
+
 void Resolver::Program(ir::ProgramId program) {
   program_ = program;
   CollectLabels(program);
+  CollectRefusedNames(program);
   for (const ir::BlockId id : module_.programs[program].blocks) {
     if (!module_.blocks[id].words.Empty()) Block(id);
   }
@@ -300,11 +327,14 @@ bool Resolver::Define(ir::VariableId id) {
   ir::Variable variable = module_.variables[id];
   const Type type = variable.type;
   bool ok = true;
+  defined_ = id;
   if (variable.initial.Valid()) ok = Converted(variable.initial, type);
   if (ok && variable.lower_limit.Valid()) ok = Number(variable.lower_limit);
   if (ok && variable.upper_limit.Valid()) ok = Number(variable.upper_limit);
   module_.variables[id] = variable;
-  return ok && (!variable.initial_list.Valid() || List(variable.initial_list, {}, id));
+  ok = ok && (!variable.initial_list.Valid() || List(variable.initial_list, {}, id));
+  defined_ = {};
+  return ok;
 }
 
 bool Resolver::Parameters(ir::ProgramId program) {

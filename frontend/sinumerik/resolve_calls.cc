@@ -1,4 +1,5 @@
 // Calls: the program, and what its parameters make of the arguments (card 3.7, 7.1).
+#include <algorithm>
 #include <string>
 
 #include "dialects/sinumerik/library.h"
@@ -16,6 +17,12 @@ using ir::ExprOp;
 using ir::Type;
 
 namespace {
+
+std::string UpperOf(std::string_view text) {
+  std::string upper(text);
+  for (char& c : upper) c = Upper(c);
+  return upper;
+}
 
 std::string_view TypeText(Type type) {
   for (const auto& row : dialects::sinumerik::Types()) {
@@ -61,6 +68,7 @@ bool Resolver::Call(ir::Word& word) {
   }
   if (call.name.Valid()) {
     call.program = FindProgram(module_, module_.View(call.name));
+    if (!call.program.Valid() && !DeclaredArguments(call, word)) return false;
     if (!call.program.Valid() && missing_programs_.insert(std::string(module_.View(call.name))).second) {
       // The block stays: a run that gets there ends in the alarm of the control.
       sink_.Report(Code::kUnknownProgram, module_.RangeOf(module_.blocks[block_], word), module_.View(call.name)).help =
@@ -102,6 +110,32 @@ bool Resolver::Arguments(const ir::Call& call, const ir::Word& word) {
     }
   }
   return !program.library || CycleLimits(call);
+}
+
+// The EXTERN of a program that is not here says what it takes.
+bool Resolver::DeclaredArguments(const ir::Call& call, const ir::Word& word) {
+  const std::string_view name = module_.View(call.name);
+  const auto& declared = module_.externs.All();
+  const auto found = std::find_if(declared.begin(), declared.end(), [&](const ir::Extern& record) {
+    return IsWord(name, UpperOf(module_.View(record.name)));
+  });
+  if (found == declared.end()) return true;
+  const ir::Extern record = *found;
+  if (call.args.count > record.param_count) {
+    sink_
+        .Report(Code::kArgumentCount, module_.RangeOf(module_.blocks[block_], word), name, record.param_count,
+                call.args.count)
+        .help = "its EXTERN says so";
+    return false;
+  }
+  for (const ir::ArgId id : call.args) {
+    const ir::ExternParam& parameter = module_.extern_params[record.first_param + module_.args[id].position];
+    if (!module_.args[id].value.Valid() || parameter.by_reference || parameter.dimension_count != 0) continue;
+    ExprId value = module_.args[id].value;
+    if (!Converted(value, parameter.type)) return false;
+    module_.args[id].value = value;
+  }
+  return true;
 }
 
 bool Resolver::Argument(ir::Arg& arg, ir::VariableId parameter_id) {

@@ -73,6 +73,14 @@ bool Resolver::Name(ExprId id) {
     return false;
   }
   const ir::Variable& variable = module_.variables[found];
+  if (defined_.Valid() && variable.owner == program_ && found.value >= defined_.value) {
+    diag::Diagnostic& finding = sink_.Report(Code::kUnknownName, module_.RangeOf(module_.blocks[block_], id), text);
+    finding.notes.push_back(
+        {{variable.file, variable.line, variable.begin, variable.begin + variable.length}, "it is declared only here"});
+    finding.help = "a start value can use names that were declared before it";
+    module_.exprs[id] = ir::Expr();
+    return false;
+  }
   if (name.count == 0) {
     become(ExprOp::kVariable, variable.type, found.value);
     return true;

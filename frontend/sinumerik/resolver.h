@@ -37,6 +37,7 @@ class Resolver {
   bool Part(ir::PartId part);
   bool Switch(ir::SwitchId id);
   void CollectLabels(ir::ProgramId program);
+  void CollectRefusedNames(ir::ProgramId program);
   void Refuse(ir::Block& block);
   [[nodiscard]] ir::VariableId FindVariable(std::string_view name) const;
   [[nodiscard]] bool FindAxis(std::string_view name, std::uint8_t& axis) const;
@@ -44,6 +45,7 @@ class Resolver {
   // Calls (resolve_calls.cc).
   bool Call(ir::Word& word);
   bool Arguments(const ir::Call& call, const ir::Word& word);
+  bool DeclaredArguments(const ir::Call& call, const ir::Word& word);
   bool Argument(ir::Arg& arg, ir::VariableId parameter);
   bool CycleLimits(const ir::Call& call);
 
@@ -79,7 +81,9 @@ class Resolver {
   std::size_t indexed_variables_ = 0;
   std::unordered_map<std::string, ir::VariableId> variables_;  // "<owner>:<NAME>"; owner empty: visible everywhere
   std::unordered_set<std::string> labels_;                     // of program_, upper case
+  std::unordered_set<std::string> refused_names_;              // words of definitions that were not understood
   std::unordered_set<std::string> missing_programs_;
+  ir::VariableId defined_;  // whose start value is resolved
 };
 
 }  // namespace ncport::frontend::sinumerik

@@ -473,7 +473,7 @@ void TokenSource::LexAddress(Cursor& c) {
     return;
   }
   if (axis == kNamedAxis && row == kAuxiliaryRow && letter != 'P') {
-    Fail(Code::kUnknownAddress, from, from + 1, letter == 'O' ? "the letter O; is the digit 0 meant?" : nullptr);
+    Fail(Code::kUnknownAddress, from, from + 1);
     return;
   }
   Token& token = Push(letter == 'P'        ? K::kPassesValue

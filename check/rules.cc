@@ -1,0 +1,20 @@
+#include "check/rules.h"
+
+namespace ncport::check {
+
+void CheckPrograms(const Subject& subject, diag::Sink& sink) {
+  for (const ir::ProgramId program : subject.module.programs.Ids()) {
+    if (subject.module.programs[program].library) continue;
+    CheckLabels(subject, program, sink);
+    CheckDoubleLabels(subject, program, sink);
+    CheckUnusedLabels(subject, program, sink);
+    CheckJumpsIntoStructures(subject, program, sink);
+    CheckProgramEnd(subject, program, sink);
+    CheckArcs(subject, program, sink);
+  }
+  CheckUnusedNames(subject, sink);
+  CheckRecursion(subject, sink);
+  CheckFeed(subject, sink);
+}
+
+}  // namespace ncport::check

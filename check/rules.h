@@ -1,0 +1,38 @@
+// The rules, one file each. A rule reports what it is sure of and is silent where an input or a caller could make the
+// program right. Refused blocks have their finding; rules read past them.
+#pragma once
+
+#include "base/diag/sink.h"
+#include "check/subject.h"
+
+namespace ncport::check {
+
+/// All rules over all programs, in the order of the list below.
+void CheckPrograms(const Subject& subject, diag::Sink& sink);
+
+// Of one program that the user wrote.
+
+/// NC4001: a jump, a switch or a repeated part names a label that its search does not find.
+void CheckLabels(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
+/// NC2003: a jump names a label or block number that stands twice where it looks; the control takes one of them.
+void CheckDoubleLabels(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
+/// NC2007: a label that nothing names. Silent where a jump is computed.
+void CheckUnusedLabels(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
+/// NC4004: a jump from outside into IF, a loop or the like. What the control then does at the end of the structure is
+/// not promised.
+void CheckJumpsIntoStructures(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
+/// NC4005: a way leads to the end of the text without an end word, where the control wants one.
+void CheckProgramEnd(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
+/// NC5004: end points and centre of an arc that are all literal and do not lie on one circle.
+void CheckArcs(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
+
+// Of the whole set.
+
+/// NC2007: variables and parameters that no block uses.
+void CheckUnusedNames(const Subject& subject, diag::Sink& sink);
+/// NC4006: every way through a program calls it again.
+void CheckRecursion(const Subject& subject, diag::Sink& sink);
+/// NC5002: a feed move on no way to which a feed was set.
+void CheckFeed(const Subject& subject, diag::Sink& sink);
+
+}  // namespace ncport::check

@@ -1,0 +1,432 @@
+#include "frontend/sinumerik/hints.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "base/near_name.h"
+#include "dialects/sinumerik/words.h"
+#include "frontend/common/chars.h"
+#include "frontend/sinumerik/token_kind.h"
+
+namespace ncport::frontend::sinumerik {
+
+namespace {
+
+using diag::Code;
+using K = TokenKind;
+namespace words = dialects::sinumerik;
+
+/// Words of other languages that people write here, and what this one has instead.
+struct ForeignWord {
+  std::string_view text;
+  const char* help;
+};
+constexpr ForeignWord kForeignWords[] = {
+    {"THEN", "there is no THEN: what depends on the condition stands in the next blocks, up to ENDIF"},
+    {"ELSEIF", "there is no ELSEIF: write ELSE and a further IF with its own ENDIF"},
+    {"ELSIF", "there is no ELSIF: write ELSE and a further IF with its own ENDIF"},
+    {"BREAK", "there is no BREAK: jump behind the loop with GOTOF"},
+    {"CONTINUE", "there is no CONTINUE: jump to the end of the loop with GOTOF"},
+    {"NEXT", "there is no NEXT: FOR ends with ENDFOR"},
+    {"WEND", "there is no WEND: WHILE ends with ENDWHILE"},
+    {"STEP", "there is no STEP: FOR counts by one; other steps need WHILE"},
+    {"DOWNTO", "there is no DOWNTO: FOR counts up by one; other steps need WHILE"},
+    {"RETURN", "there is no RETURN: a subprogram ends with RET or M17"},
+};
+
+/// Words that begin or hold together a block, for misspelled ones.
+constexpr std::string_view kStatementWords[] = {
+    "DEF",   "DEFINE",  "PROC",  "EXTERN", "IF",     "ELSE",   "ENDIF", "WHILE", "ENDWHILE", "FOR",  "ENDFOR",
+    "LOOP",  "ENDLOOP", "UNTIL", "REPEAT", "GOTO",   "GOTOF",  "GOTOB", "GOTOC", "CASE",     "MSG",  "SETAL",
+    "MCALL", "CALL",    "RET",   "TRANS",  "ATRANS", "MIRROR", "ROT",   "SCALE", "STOPRE",   "SPOS", "LIMS",
+};
+
+class Hints {
+ public:
+  Hints(std::span<const Token> tokens, std::size_t at, std::string_view line, LineError& error, std::string& help)
+      : tokens_(tokens), at_(at), line_(line), error_(error), help_(help) {}
+
+  void Run() {
+    // Each looks for one kind of slip; the first that fits has the word.
+    (void)(TornNumber() || MissingType() || Comparison() || NoFunction() || NoBrackets() || Closer() || Gap() ||
+           MissingValue() || ForeignName() || Statement() || CommentMark());
+    if (!help_.empty()) error_.help = help_.c_str();
+  }
+
+ private:
+  [[nodiscard]] K KindAt(std::size_t token) const {
+    return token < tokens_.size() ? static_cast<K>(tokens_[token].kind) : K::kNone;
+  }
+  [[nodiscard]] K Kind() const { return KindAt(at_); }
+  [[nodiscard]] K Before() const { return at_ == 0 ? K::kNone : KindAt(at_ - 1); }
+  [[nodiscard]] std::string_view TextOf(std::size_t token) const {
+    return line_.substr(tokens_[token].offset, tokens_[token].length);
+  }
+  /// First token behind skip mark, block number and label.
+  [[nodiscard]] std::size_t First() const {
+    std::size_t first = 0;
+    while (KindAt(first) == K::kSkip || KindAt(first) == K::kBlockNumber || KindAt(first) == K::kMainNumber ||
+           KindAt(first) == K::kLabel)
+      ++first;
+    return first;
+  }
+  [[nodiscard]] bool Holds(K kind) const {
+    for (std::size_t i = 0; i < std::min(at_, tokens_.size()); ++i) {
+      if (KindAt(i) == kind) return true;
+    }
+    return false;
+  }
+  bool Put(Code code, std::size_t token, const char* detail = nullptr) {
+    error_.code = code;
+    error_.begin = tokens_[token].offset;
+    error_.length = tokens_[token].length;
+    error_.detail = detail;
+    return true;
+  }
+  template <class... Args>
+  bool Say(fmt::format_string<Args...> text, Args&&... args) {
+    help_ = fmt::format(text, std::forward<Args>(args)...);
+    return true;
+  }
+  static bool IsValue(K kind) {
+    switch (kind) {
+      case K::kNumber:
+      case K::kText:
+      case K::kBoolean:
+      case K::kName:
+      case K::kCell:
+      case K::kRightParen:
+      case K::kRightBracket:
+      case K::kAxisValue:
+      case K::kAddressValue:
+        return true;
+      default:
+        return false;
+    }
+  }
+  static bool IsOperator(K kind) {
+    return kind >= K::kEqualTo && kind <= K::kConcat && kind != K::kNot && kind != K::kBitNot;
+  }
+
+  // `10.5.2`: the second point begins a number of its own.
+  bool TornNumber() {
+    if (at_ == 0 || at_ >= tokens_.size() || !TextOf(at_).starts_with('.')) return false;
+    const Token& before = tokens_[at_ - 1];
+    if (before.End() != tokens_[at_].offset || !IsValue(Before())) return false;
+    error_ = {.code = Code::kBadNumber, .begin = before.offset, .length = tokens_[at_].End() - before.offset};
+    return Say("a number has one decimal point");
+  }
+
+  // `DEF INTEGER A`, `PROC P(A)`: a name where the type stands.
+  bool MissingType() {
+    const K first = KindAt(First());
+    if (Kind() != K::kName) return false;
+    const bool definition = first == K::kDef && !Holds(K::kType) && !Holds(K::kStringType) && !Holds(K::kEquals);
+    const bool parameter =
+        first == K::kProc && (Before() == K::kLeftParen || Before() == K::kComma || Before() == K::kVar);
+    if (!definition && !parameter) return false;
+    Put(Code::kExpectedText, at_, "a type");
+    std::vector<std::string_view> types;
+    for (const auto& row : words::Types()) types.push_back(row.text);
+    std::string_view near = NearName(TextOf(at_), types);
+    for (const std::string_view type : types) {
+      if (near.empty() && type.size() > 2 && IsWord(TextOf(at_).substr(0, type.size()), type)) near = type;
+    }
+    if (!near.empty()) return Say("did you mean {}?", near);
+    return Say("the types are INT, REAL, BOOL, CHAR, STRING[n], AXIS, FRAME");
+  }
+
+  // `=` for `==` and the other way round; `=>`.
+  bool Comparison() {
+    const bool condition = Holds(K::kIf) || Holds(K::kWhile) || Holds(K::kUntil) || Holds(K::kCase);
+    if ((Kind() == K::kEquals && (Before() == K::kGreater || Before() == K::kLess)) ||
+        ((Kind() == K::kGreater || Kind() == K::kLess) && Before() == K::kEquals)) {
+      return Say("did you mean {}=?", (Kind() == K::kGreater || Before() == K::kGreater) ? ">" : "<");
+    }
+    const K next = KindAt(at_ + 1);
+    if (Kind() == K::kEquals && (next == K::kGreater || next == K::kLess))
+      return Say("did you mean {}=?", next == K::kGreater ? ">" : "<");
+    if (Kind() == K::kGreater && Before() == K::kLess) return Say("not equal is written <>, without a blank");
+    if (Kind() == K::kEquals && condition) return Say("two values are compared with ==");
+    if (Kind() == K::kEqualTo && !condition) return Say("a value is set with one =");
+    if (Kind() == K::kEquals && at_ == First()) return Say("what gets the value is missing in front of =");
+    return false;
+  }
+
+  // `SQTR(..)`: a name in front of a bracket inside an expression.
+  bool NoFunction() {
+    if (Kind() != K::kLeftParen || Before() != K::kName || at_ - 1 == First()) return false;
+    Put(Code::kUnknownName, at_ - 1);
+    std::vector<std::string_view> names;
+    for (const auto& row : words::Functions()) names.push_back(row.text);
+    const std::string_view near = NearName(TextOf(at_ - 1), names);
+    if (!near.empty()) return Say("did you mean {}?", near);
+    return Say("there is no such function; an array has its index in []");
+  }
+
+  bool NoBrackets() {
+    if (Before() != K::kFunction) return false;
+    return Say("{} takes its argument in brackets: {}(..)", TextOf(at_ - 1), TextOf(at_ - 1));
+  }
+
+  // `A[0)`, `(1]`: the innermost open bracket is of the other form.
+  bool Closer() {
+    if (Kind() != K::kRightParen && Kind() != K::kRightBracket) return false;
+    std::vector<std::size_t> open;
+    for (std::size_t i = 0; i < at_; ++i) {
+      if (KindAt(i) == K::kLeftParen || KindAt(i) == K::kLeftBracket) open.push_back(i);
+      if ((KindAt(i) == K::kRightParen || KindAt(i) == K::kRightBracket) && !open.empty()) open.pop_back();
+    }
+    if (open.empty()) return Say("no bracket is open here");
+    const bool round = KindAt(open.back()) == K::kLeftParen;
+    if (round == (Kind() == K::kRightParen)) {
+      if (open.back() + 1 == at_) return Say("the brackets are empty: a value is missing");
+      return Gap();
+    }
+    Put(Code::kUnclosedBracket, open.back());
+    return Say("{} is closed by {}", round ? "(" : "[", round ? ")" : "]");
+  }
+
+  // A value is missing between two signs.
+  bool Gap() {
+    if (Kind() == K::kComma) {
+      if (Before() == K::kComma) return Say("a value is missing between the commas");
+      if (Before() == K::kAxisValue || Before() == K::kAddressValue || Before() == K::kNumber)
+        return Say("the decimal sign is a point");
+      return false;
+    }
+    const bool operator_before = IsOperator(Before()) || Before() == K::kEquals;
+    if (!operator_before) {
+      // The parser may stop at the operator in front of the gap.
+      if (IsOperator(Kind()) && at_ + 1 >= tokens_.size()) return Say("a value is missing behind {}", TextOf(at_));
+      return false;
+    }
+    if (IsOperator(Kind())) return Say("a value is missing between {} and {}", TextOf(at_ - 1), TextOf(at_));
+    return !StartsValue(Kind()) && Say("a value is missing behind {}", TextOf(at_ - 1));
+  }
+  static bool StartsValue(K kind) {
+    switch (kind) {
+      case K::kNumber:
+      case K::kText:
+      case K::kBoolean:
+      case K::kName:
+      case K::kCell:
+      case K::kCellAt:
+      case K::kSystem:
+      case K::kFunction:
+      case K::kMode:
+      case K::kAxis:
+      case K::kAxisValue:
+      case K::kLeftParen:
+      case K::kSet:
+      case K::kRep:
+      case K::kMinus:
+      case K::kPlus:
+      case K::kNot:
+      case K::kBitNot:
+      case K::kConcat:
+        return true;
+      default:
+        return false;
+    }
+  }
+
+  // `X Y10`: an axis letter with neither a value nor `=`.
+  bool MissingValue() {
+    if (error_.code != Code::kExpectedText || Before() != K::kAxis || error_.detail == nullptr) return false;
+    if (std::string_view(error_.detail) != "=" || IsOperator(Kind()) || Kind() == K::kLeftParen) return false;
+    if (Kind() == K::kNumber || Kind() == K::kName || Kind() == K::kCell || Kind() == K::kFunction) return false;
+    return Put(Code::kMissingValue, at_ - 1);
+  }
+
+  // A word of another language, where it is the wrong one or stands in front of it.
+  bool ForeignName() {
+    for (const std::size_t token : {at_, at_ - 1}) {
+      if (token >= tokens_.size() || (KindAt(token) != K::kName && KindAt(token) != K::kSubName)) continue;
+      for (const ForeignWord& word : kForeignWords) {
+        if (!IsWord(TextOf(token), word.text)) continue;
+        Put(Code::kUnknownWord, token);
+        return Say("{}", word.help);
+      }
+    }
+    return false;
+  }
+
+  // A block that begins with a name which no `=` follows: a misspelled word, a label without colon, an address.
+  bool Statement() {
+    const bool stands_alone = error_.code == Code::kNotAlone;
+    std::size_t name = First();
+    if (stands_alone) {
+      while (name < tokens_.size() && tokens_[name].offset != error_.begin) ++name;
+    } else if (at_ != name + 1) {
+      return false;
+    }
+    if (KindAt(name) != K::kName) return false;
+    const std::string_view text = TextOf(name);
+    if (const std::string number = AsNumberWord(text); !number.empty()) {
+      Put(Code::kUnknownWord, name);
+      return Say("did you mean {}?", number);
+    }
+    if (text.size() > 2 && text.size() < 6 && (text[1] == 'R' || text[1] == 'r') && IsDigit(text[2])) {
+      Put(Code::kExpectedText, name, "=");
+      ++error_.begin;
+      --error_.length;
+      return Say("an address and an expression are written with =: {}={}", text.substr(0, 1), text.substr(1));
+    }
+    if (const std::string_view near = NearName(text, kStatementWords); !near.empty()) {
+      Put(Code::kUnknownWord, name);
+      return Say("did you mean {}?", near);
+    }
+    if (name == First() && !stands_alone &&
+        (Kind() == K::kCode || Kind() == K::kAxisValue || Kind() == K::kAddressValue)) {
+      Put(Code::kUnknownWord, name);
+      return Say("a label ends with a colon: {}:", text);
+    }
+    return false;
+  }
+
+  // `Xl0`, `G0lX`: letters for digits. Empty: no such word.
+  static std::string AsNumberWord(std::string_view text) {
+    std::string word(text.substr(0, 1));
+    bool digit = text.size() == 2;  // GO for G0
+    bool changed = false;
+    for (const char c : text.substr(1)) {
+      const char upper = Upper(c);
+      digit = digit || IsDigit(c);
+      if (IsDigit(c) || c == '.') {
+        word += c;
+      } else if (upper == 'O' || upper == 'L' || upper == 'I') {
+        word += upper == 'O' ? '0' : '1';
+        changed = true;
+      } else {
+        return {};
+      }
+    }
+    return digit && changed ? word : std::string();
+  }
+
+  bool CommentMark() {
+    if (Kind() != K::kLeftParen || at_ != First()) return false;
+    return Say("a comment begins with ; and brackets hold expressions");
+  }
+
+  std::span<const Token> tokens_;
+  std::size_t at_;
+  std::string_view line_;
+  LineError& error_;
+  std::string& help_;
+};
+
+}  // namespace
+
+void ExplainSyntax(std::span<const Token> tokens, std::size_t at, std::string_view line, LineError& error,
+                   std::string& help) {
+  help.clear();
+  Hints(tokens, at, line, error, help).Run();
+}
+
+void ExplainWord(std::string_view line, LineError& error, std::string& help) {
+  help.clear();
+  if (error.begin >= line.size() || error.help != nullptr) return;
+  const char c = Upper(line[error.begin]);
+  const std::string_view behind = line.substr(error.begin + 1);
+  if (error.code == Code::kUnknownAddress && c == 'O' && error.begin > 0 && IsDigit(line[error.begin - 1])) {
+    // `Y2O`: the letter O behind a digit.
+    std::size_t begin = error.begin;
+    while (begin > 0 && (IsDigit(line[begin - 1]) || line[begin - 1] == '.' || line[begin - 1] == '-')) --begin;
+    if (begin > 0) --begin;
+    std::size_t end = error.begin;
+    while (end < line.size() && (IsDigit(line[end]) || line[end] == '.' || Upper(line[end]) == 'O')) ++end;
+    std::string word(line.substr(begin, end - begin));
+    for (char& letter : word) letter = Upper(letter) == 'O' ? '0' : letter;
+    error = {.code = Code::kBadNumber,
+             .begin = static_cast<std::uint32_t>(begin),
+             .length = static_cast<std::uint32_t>(end - begin)};
+    help = fmt::format("did you mean {}?", word);
+  } else if (error.code == Code::kUnknownAddress && c == 'O') {
+    help = "the letter O; is the digit 0 meant?";
+  } else if (error.code == Code::kUnknownCharacter && c == '!' && behind.starts_with('=')) {
+    help = "not equal is written <>";
+  } else if (error.code == Code::kUnknownCharacter && c == '|') {
+    help = "the word OR joins two conditions";
+  } else if (error.code == Code::kUnexpectedText && (c == ')' || c == ']')) {
+    std::vector<std::size_t> open;
+    for (std::size_t i = 0; i < error.begin; ++i) {
+      if (line[i] == '(' || line[i] == '[') open.push_back(i);
+      if ((line[i] == ')' || line[i] == ']') && !open.empty()) open.pop_back();
+    }
+    if (open.empty()) {
+      help = "no bracket is open here";
+    } else {
+      const bool round = line[open.back()] == '(';
+      help = fmt::format("{} is closed by {}", round ? "(" : "[", round ? ")" : "]");
+      error = {.code = Code::kUnclosedBracket, .begin = static_cast<std::uint32_t>(open.back()), .length = 1};
+    }
+  } else if (error.code == Code::kUnclosedString) {
+    // Nothing behind the quote that could be the text.
+    const std::size_t letter =
+        std::find_if(behind.begin(), behind.end(), [](char b) { return IsLetter(b) || IsDigit(b); }) - behind.begin();
+    if (letter == behind.size() || behind.find(';') < letter)
+      help = "if a text ends here, its quote is missing in front";
+  }
+  if (!help.empty()) error.help = help.c_str();
+}
+
+bool GoesOn(std::string_view line) {
+  int depth = 0;
+  bool text = false;
+  std::string_view code;
+  for (std::size_t i = 0; i <= line.size(); ++i) {
+    if (i == line.size() || (line[i] == ';' && !text)) {
+      code = line.substr(0, i);
+      break;
+    }
+    if (line[i] == '"') text = !text;
+    if (text) continue;
+    if (line[i] == '(' || line[i] == '[') ++depth;
+    if (line[i] == ')' || line[i] == ']') --depth;
+  }
+  while (!code.empty() && static_cast<unsigned char>(code.back()) <= ' ') code.remove_suffix(1);
+  return depth > 0 && !text && (code.ends_with(',') || code.ends_with("<<") || code.ends_with('+'));
+}
+
+void ExplainSecondLine(std::string_view before, std::uint32_t line_before, std::string_view line, LineError& error,
+                       std::string& help) {
+  help = fmt::format("line {} goes on here, but a block ends with its line: write both in one", line_before);
+  error.help = help.c_str();
+  // A list of parameters: names behind types. The second one of a name is the finding, as no other block tells of it.
+  std::vector<std::string_view> names;
+  bool typed = false;
+  const auto scan = [&](std::string_view text, bool second) {
+    for (std::size_t at = 0; at < text.size();) {
+      std::size_t end = at;
+      while (end < text.size() && (IsLetter(text[end]) || IsDigit(text[end]) || text[end] == '_')) ++end;
+      if (end == at) {
+        ++at;
+        continue;
+      }
+      const std::string_view word = text.substr(at, end - at);
+      if (typed) {
+        for (const std::string_view name : names) {
+          if (!second || name.size() != word.size() ||
+              !std::equal(name.begin(), name.end(), word.begin(), [](char a, char b) { return Upper(a) == Upper(b); }))
+            continue;
+          error = {.code = Code::kDoubleName,
+                   .begin = static_cast<std::uint32_t>(at),
+                   .length = static_cast<std::uint32_t>(word.size()),
+                   .help = help.c_str()};
+        }
+        names.push_back(word);
+      }
+      typed = false;
+      for (const auto& row : words::Types()) typed = typed || IsWord(word, row.text);
+      at = end;
+    }
+  };
+  scan(before, false);
+  scan(line, true);
+}
+
+}  // namespace ncport::frontend::sinumerik

@@ -1,0 +1,32 @@
+// Syntax errors that tell their cause: what a typing error at this place mostly is. Nothing here decides whether a
+// block is right; it is asked only about blocks that are wrong.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "frontend/common/line_error.h"
+#include "frontend/common/token.h"
+
+namespace ncport::frontend::sinumerik {
+
+/// A block that the parser did not take: `at` is the first token that does not fit, tokens.size() = the end of the
+/// block. Moves `error` to the word that is wrong where that is another one, and sets its help; `help` keeps the text.
+void ExplainSyntax(std::span<const Token> tokens, std::size_t at, std::string_view line, LineError& error,
+                   std::string& help);
+
+/// A character or word that the tokens do not know.
+void ExplainWord(std::string_view line, LineError& error, std::string& help);
+
+/// True if the line stops in the middle of a list or an expression in brackets, as texts do that were printed in a
+/// narrow column: there is no continuation line.
+bool GoesOn(std::string_view line);
+
+/// The line behind such a one, which starts in the middle. A parameter that both lines together declare twice becomes
+/// the finding.
+void ExplainSecondLine(std::string_view before, std::uint32_t line_before, std::string_view line, LineError& error,
+                       std::string& help);
+
+}  // namespace ncport::frontend::sinumerik

@@ -1,0 +1,127 @@
+// Each rule: programs that it must flag and programs that it must not.
+#include "check/rules.h"
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <string_view>
+
+#include "dialects/registry.h"
+#include "frontend/reader.h"
+
+namespace ncport::check {
+namespace {
+
+/// What the rules find in one file, "CODE line" each.
+std::string Findings(std::string_view profile_name, std::string_view file_name, std::string_view text) {
+  const dialects::Profile profile = dialects::BuiltIn(profile_name);
+  SourceFiles files;
+  ir::Module module;
+  diag::Sink sink;
+  const FileId file = files.Add(std::string(file_name), std::string(text));
+  const Status read = frontend::ReadFile(files, file, profile, {}, module, sink);
+  frontend::ResolveNames(files, module, profile, sink);
+  CHECK(read.Ok());
+  CheckPrograms(Subject(module, profile, {}), sink);
+  sink.SortByPlace();
+  std::string found;
+  for (const diag::Diagnostic& finding : sink.All()) {
+    if (!found.empty()) found += ", ";
+    found += std::string(diag::InfoOf(finding.code).number) + " " + std::to_string(finding.at.line);
+  }
+  return found;
+}
+std::string Mill(std::string_view text) { return Findings("sinumerik-840d-mill", "main.mpf", text); }
+std::string Lathe(std::string_view text) { return Findings("sinumerik-840d-lathe", "main.mpf", text); }
+std::string Sub(std::string_view text) { return Findings("sinumerik-840d-mill", "sub.spf", text); }
+std::string Macro(std::string_view text) { return Findings("fanuc-mill", "o1.nc", text); }
+
+}  // namespace
+
+TEST_CASE("jumps that find nothing") {
+  CHECK(Mill("GOTOF AB\nM30\n") == "NC4001 1");
+  CHECK(Mill("AB: G0 X1\nIF R1>1 GOTOF AB\nM30\n") == "NC4001 2");
+  CHECK(Macro("O1\nIF [#1 GT 1] GOTO 20\nN10 M30\n") == "NC4001 2");
+  CHECK(Mill("GOTOC AB\nM30\n").empty());
+  CHECK(Mill("AB: G0 X1\nIF R1>1 GOTOB AB\nM30\n").empty());
+  CHECK(Macro("O1\nN10 IF [#1 GT 1] GOTO 10\nM30\n").empty());
+}
+
+TEST_CASE("jumps to labels that stand twice") {
+  CHECK(Mill("IF R1>1 GOTOF AB\nAB: G0 X1\nAB: G0 X2\nM30\n") == "NC2003 1");
+  CHECK(Mill("N10 G0 X1\nN10 G0 X2\nIF R1>1 GOTOB N10\nM30\n") == "NC2003 3");
+  CHECK(Macro("O1\nIF [#1 EQ 1] GOTO 10\nN10 G0 X1.\nN10 G0 X2.\nM30\n") == "NC2003 2");
+  // One before and one behind: each jump has its own.
+  CHECK(Mill("AB: G0 X1\nIF R1>1 GOTOB AB\nIF R1<1 GOTOF AB\nAB: G0 X2\nM30\n").empty());
+  CHECK(Mill("N10 G0 X1\nN10 G0 X2\nM30\n").empty());
+  CHECK(Macro("O1\nN10 G0 X1.\nN10 G0 X2.\nM30\n").empty());
+}
+
+TEST_CASE("labels that nothing names") {
+  CHECK(Mill("AB: G0 X1\nM30\n") == "NC2007 1");
+  CHECK(Mill("AB: G0 X1\nCD: G0 X2\nIF R1>1 GOTOB AB\nM30\n") == "NC2007 2");
+  CHECK(Sub("AB: G0 X1\nCD: G0 X2\nREPEAT AB P=2\nM17\n") == "NC2007 2");
+  CHECK(Mill("AB: G0 X1\nCD: G0 X2\nIF R1>1 GOTOB \"A\"<<\"B\"\nM30\n").empty());
+  CHECK(Mill("AB: G0 X1\nCD: G0 X2\nREPEAT AB CD P=2\nM30\n").empty());
+  CHECK(Mill("AB: G0 X1\nENDLABEL:\nG0 X2\nREPEAT AB P=2\nM30\n").empty());
+}
+
+TEST_CASE("variables and parameters that nothing uses") {
+  CHECK(Mill("DEF INT AB\nM30\n") == "NC2007 1");
+  CHECK(Mill("DEF INT AB, CD\nAB=CD\nM30\n") == "NC2007 1");
+  CHECK(Sub("PROC SUB1(REAL LENGTH, REAL FEED)\nG1 X=LENGTH F100\nM17\n") == "NC2007 1");
+  CHECK(Mill("DEF INT AB\nG0 X=AB\nM30\n").empty());
+  CHECK(Sub("PROC SUB1(VAR REAL RESULT)\nRESULT=1\nM17\n").empty());
+  CHECK(Sub("PROC SUB1(INT COUNT)\nDEF REAL AB[3]\nG0 X=AB[COUNT]\nM17\n").empty());
+}
+
+TEST_CASE("jumps into structures") {
+  CHECK(Mill("GOTOF N20\nIF R1>1\nN20 G0 X1\nENDIF\nM30\n") == "NC4004 1");
+  CHECK(Mill("IF R1>1\nN10 GOTOF N20\nELSE\nN20 G0 X1\nENDIF\nM30\n") == "NC4004 2");
+  CHECK(Macro("O1\nGOTO 20\nWHILE [#1 LT 5] DO1\n#1=#1+1\nN20 G0 X1.\nEND1\nM30\n") == "NC4004 2");
+  CHECK(Mill("IF R1>1\nGOTOF N20\nENDIF\nG0 X1\nN20 M30\n").empty());
+  CHECK(Mill("WHILE R1<5\nR1=R1+1\nIF R1==3\nGOTOF N20\nENDIF\nG0 X=R1\nN20 G0 Y1\nENDWHILE\nM30\n").empty());
+  CHECK(Macro("O1\nWHILE [#1 LT 5] DO1\n#1=#1+1\nIF [#1 EQ 3] GOTO 20\nG0 X1.\nN20 G0 X2.\nEND1\nM30\n").empty());
+}
+
+TEST_CASE("programs without an end") {
+  CHECK(Mill("G0 X1\n") == "NC4005 1");
+  CHECK(Sub("PROC SUB1\nG0 X1\nG0 X2\n") == "NC4005 3");
+  CHECK(Mill("IF R1>1 GOTOF AB\nM30\nAB: G0 X1\n") == "NC4005 3");
+  CHECK(Mill("G0 X1\nM2\n").empty());
+  CHECK(Sub("PROC SUB1\nG0 X1\nRET\n").empty());
+  CHECK(Mill("AB: G0 X1\nGOTOB AB\n").empty());
+}
+
+TEST_CASE("programs that call themselves for ever") {
+  CHECK(Sub("PROC SUB1\nG0 X1\nSUB1\nM17\n") == "NC4006 3");
+  CHECK(Sub("PROC SUB1\nIF R1>1\nSUB1\nELSE\nSUB1\nENDIF\nM17\n") == "NC4006 3");
+  CHECK(Macro("O1\nG0 X1.\nM98 P1\nM99\n") == "NC4006 3");
+  CHECK(Sub("PROC SUB1\nR1=R1-1\nIF R1<0 GOTOF READY\nSUB1\nREADY: M17\n").empty());
+  CHECK(Sub("PROC SUB1\nIF R1>1\nSUB1\nENDIF\nM17\n").empty());
+  CHECK(Sub("PROC SUB1\nSUB2\nM17\n%_N_SUB2_SPF\nG0 X1\nM17\n").empty());
+}
+
+TEST_CASE("feed moves without a feed") {
+  CHECK(Mill("G0 X1\nG1 X2\nG1 X3\nM30\n") == "NC5002 2");
+  CHECK(Mill("X1\nM30\n") == "NC5002 1");
+  CHECK(Mill("G17 G90\nG0 X0 Y0\nIF R1>1 GOTOF AB\nG1 X1 F100\nM30\nAB: G3 X5 Y0 CR=3\nM30\n") == "NC5002 6");
+  CHECK(Macro("O1\nG0 X1.\nG1 X2.\nM30\n") == "NC5002 3");
+  CHECK(Mill("G0 X1 F100\nG1 X2\nM30\n").empty());
+  CHECK(Mill("G0 X1\nIF R1>1\nF100\nENDIF\nG1 X2\nM30\n").empty());
+  // Callers may have set it.
+  CHECK(Sub("PROC SUB1\nG1 X2\nM17\n").empty());
+  CHECK(Mill("G93\nG1 X1 F1\nTRANS X5\nG4 F2\nM30\n").empty());
+}
+
+TEST_CASE("arcs whose ends lie on no circle") {
+  CHECK(Mill("G0 X0 Y0\nG2 X10 Y0 I4 J0 F100\nM30\n") == "NC5004 2");
+  CHECK(Mill("G0 X0 Y0 F100\nG91 G3 X10 Y0 J5\nM30\n") == "NC5004 2");
+  CHECK(Lathe("G18 DIAMON\nG0 X20 Z0 F0.1\nG2 X40 Z-12 I10 K0\nM30\n") == "NC5004 3");
+  CHECK(Mill("G0 X0 Y0\nG2 X10 Y0 I5 J0 F100\nG2 I-5\nM30\n").empty());
+  CHECK(Lathe("G18 DIAMON\nG0 X20 Z0 F0.1\nG2 X40 Z-10 I10 K0\nM30\n").empty());
+  CHECK(Mill("G0 X0 Y0\nTRANS X1\nG2 X10 Y0 I4 J0 F100\nM30\n").empty());
+  CHECK(Mill("G0 X=R1 Y0\nG2 X10 Y0 I4 J0 F100\nM30\n").empty());
+}
+
+}  // namespace ncport::check

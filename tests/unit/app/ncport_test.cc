@@ -137,7 +137,7 @@ TEST_CASE("a comment silences a code on its block, and only while it is needed")
   CHECK(codes("G1 X=NONAME ; ncport: ignore NC2001\n") == "");
   CHECK(codes("; ncport: ignore NC2001\nG1 X=NONAME\n") == "");
   CHECK(codes("G1 X=NONAME ; ncport: ignore NC3001, NC2001\n") == "NC2112");
-  CHECK(codes("; ncport: ignore NC2001\nG1 X1\nG1 X=NONAME\n") == "NC2001 NC2112");
+  CHECK(codes("; ncport: ignore NC2001\nG0 X1\nG1 X=NONAME\n") == "NC2001 NC2112");
   options.ignore = {"NC2"};
   CHECK(codes("G1 X=NONAME\n") == "");
   options.ignore = {};

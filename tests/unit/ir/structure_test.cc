@@ -139,7 +139,7 @@ TEST_CASE("ir structure: DO numbers tell loops apart") {
   CHECK(crossed.Messages() == Texts{"3: end-while 1 stands inside while 2 and ends it", "  2: while 2 opens here",
                                     "  4: its end-while 2 stands here"});
   const Marks wrong("while1 . end-while2");
-  CHECK(wrong.Messages() == Texts{"3: end-while 2 without while 2"});
+  CHECK(wrong.Messages() == Texts{"3: end-while 2 without while 2", "  1: while 1 opens here and has no end-while 1"});
 }
 
 TEST_CASE("ir structure: a mark that could not be read keeps its place and makes no second finding") {

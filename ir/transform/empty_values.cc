@@ -12,6 +12,7 @@
 #include "ir/analysis/call_graph.h"
 #include "ir/analysis/cfg.h"
 #include "ir/builder.h"
+#include "ir/transform/index_range.h"
 #include "ir/transform/linear_form.h"
 #include "ir/transform/program_editor.h"
 #include "ir/transform/rewrite_exprs.h"
@@ -54,6 +55,23 @@ class Pass {
   bool Enter(ProgramId program, const State& state);
   [[nodiscard]] std::uint8_t ClassOf(ExprId id, const State& state) const;
   [[nodiscard]] std::optional<std::size_t> IndexOf(ExprId id) const;
+  /// Calls `visit` for every cell that `#[e]` may reach; false when those are not known.
+  template <class Visit>
+  bool Reached(const Expr& expr, Visit visit) const {
+    const auto range = IndexRangeOf(module_, ExprId{std::size_t{expr.a}});
+    if (!range) return false;
+    for (std::uint32_t cell = range->first; cell <= range->last; ++cell) {
+      bool known = false;
+      for (const SpaceId space : module_.spaces.Ids()) {
+        const auto found = index_.find({space.value, cell});
+        if (found == index_.end()) continue;
+        visit(found->second);
+        known = true;
+      }
+      if (!known) return false;
+    }
+    return true;
+  }
   [[nodiscard]] bool IsTracked(SpaceId space) const {
     const Space& record = module_.spaces[space];
     return record.type == Type::kNumber && record.start == StartValue::kVacant;
@@ -137,7 +155,13 @@ std::uint8_t Pass::ClassOf(ExprId id, const State& state) const {
   if (!bare.Valid()) return kEmpty;
   const Expr& expr = module_.exprs[bare];
   if (expr.op == ExprOp::kVacant) return kEmpty;
-  if (expr.op == ExprOp::kCellAt) return IsTracked(SpaceId{std::size_t{expr.b}}) ? kUnsure : kNumber;
+  if (expr.op == ExprOp::kCellAt) {
+    if (!IsTracked(SpaceId{std::size_t{expr.b}})) return kNumber;
+    std::uint8_t bits = 0;
+    if (!Reached(expr, [&](std::size_t index) { bits = static_cast<std::uint8_t>(bits | (state[index] & kUnsure)); }))
+      return kUnsure;
+    return bits == 0 ? kUnsure : bits;
+  }
   const auto index = IndexOf(bare);
   return index ? static_cast<std::uint8_t>(state[*index] & kUnsure) : kNumber;
 }
@@ -147,6 +171,15 @@ void Pass::FindCells() {
     RewriteProgram(module_, program, [&](Module& module, ExprId id) {
       const Expr& expr = module.exprs[id];
       if (expr.op == ExprOp::kCell && IsTracked(SpaceId{std::size_t{expr.a}})) index_.try_emplace({expr.a, expr.b}, 0);
+      if (expr.op != ExprOp::kCellAt) return id;
+      const auto range = IndexRangeOf(module, ExprId{std::size_t{expr.a}});
+      for (const SpaceId space : module.spaces.Ids()) {
+        if (!range || !IsTracked(space)) continue;
+        const Space& record = module.spaces[space];
+        for (std::uint32_t cell = std::max(range->first, record.first); cell <= std::min(range->last, record.last);
+             ++cell)
+          index_.try_emplace({space.value, cell}, 0);
+      }
       return id;
     });
   }
@@ -172,9 +205,9 @@ void Pass::FindWrites() {
         if (word.op != WordOp::kAssign) continue;
         const ExprId place = word.Extra<ExprId>();
         if (const auto index = IndexOf(place)) writes_[program.value].insert(*index);
-        if (module_.exprs[place].op == ExprOp::kCellAt) {
-          for (std::size_t i = 0; i < cells_.size(); ++i) writes_[program.value].insert(i);
-        }
+        if (module_.exprs[place].op != ExprOp::kCellAt) continue;
+        if (Reached(module_.exprs[place], [&](std::size_t index) { writes_[program.value].insert(index); })) continue;
+        for (std::size_t i = 0; i < cells_.size(); ++i) writes_[program.value].insert(i);
       }
     }
   }
@@ -330,7 +363,12 @@ void Pass::ThroughWord(ProgramId program, const Word& word, State& state) {
       const ExprId place = word.Extra<ExprId>();
       if (const auto index = IndexOf(place)) state[*index] = ClassOf(word.value, state);
       if (module_.exprs[place].op == ExprOp::kCellAt) {
-        for (std::uint8_t& bits : state) bits = static_cast<std::uint8_t>(bits | kUnsure);
+        // One of them is written, the others stay.
+        const std::uint8_t made = ClassOf(word.value, state);
+        const bool known = Reached(module_.exprs[place], [&](std::size_t index) {
+          state[index] = static_cast<std::uint8_t>(state[index] | made);
+        });
+        for (std::uint8_t& bits : state) bits = known ? bits : static_cast<std::uint8_t>(bits | kUnsure);
       }
       break;
     }

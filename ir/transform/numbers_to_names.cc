@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -10,6 +11,7 @@
 #include "ir/analysis/call_graph.h"
 #include "ir/builder.h"
 #include "ir/transform/empty_values.h"
+#include "ir/transform/index_range.h"
 #include "ir/transform/new_local.h"
 #include "ir/transform/program_editor.h"
 #include "ir/transform/rewrite_exprs.h"
@@ -31,6 +33,12 @@ class Naming {
  private:
   void FindSpaces();
   void FindUses();
+  /// Cells of one space that an index reaches: they move together.
+  struct Block {
+    std::uint32_t space = 0, first = 0, last = 0;
+  };
+  [[nodiscard]] std::optional<Block> CellsOf(const Expr& expr) const;
+  void JoinBlocks();
   void PlaceCommon();
   void NameProgram(ProgramId program);
   VariableId NewVariable(ProgramId program, Key key, Scope scope, bool by_reference);
@@ -54,6 +62,7 @@ class Naming {
   NumbersToNamesResult result_;
   SpaceId locals_, given_, target_;
   std::set<std::uint32_t> common_spaces_;
+  std::vector<Block> blocks_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> common_;  // space, cell -> cell of the target
   std::vector<std::set<Key>> used_;                                          // per program, what it shares included
   std::vector<std::set<Key>> passed_;                                        // by the letters of any call
@@ -111,10 +120,14 @@ void Naming::FindUses() {
     for (const BlockId block : module_.programs[program].blocks) {
       for (const WordId word_id : module_.blocks[block].words) {
         const Word& word = module_.words[word_id];
-        bool indexed = false;
+        bool open = false;
         const auto look = [&](ExprId root) {
           RewriteExpr(module_, root, [&](Module& module, ExprId id) {
-            indexed = indexed || module.exprs[id].op == ExprOp::kCellAt;
+            const Expr& expr = module.exprs[id];
+            if (expr.op != ExprOp::kCellAt || expr.b == target_.value) return id;
+            const std::optional<Block> block_of_cells = CellsOf(expr);
+            open = open || !block_of_cells;
+            if (block_of_cells) blocks_.push_back(*block_of_cells);
             return id;
           });
         };
@@ -123,13 +136,14 @@ void Naming::FindUses() {
         if ((word.op == WordOp::kCall || word.op == WordOp::kModalCall) && word.Extra<CallId>().Valid()) {
           for (const ArgId arg : module_.calls[word.Extra<CallId>()].args) look(module_.args[arg].value);
         }
-        if (indexed) Refuse(program, block, "a variable with a computed number");
+        if (open) Refuse(program, block, "a variable whose computed number is not bounded");
       }
     }
   }
   for (const auto& [space, cells] : common) {
     for (const std::uint32_t cell : cells) common_[{space, cell}] = 0;
   }
+  JoinBlocks();
   const analysis::CallGraph calls(module_);
   for (const analysis::CallSite& site : calls.AllSites()) {
     if (!site.callee.Valid()) continue;
@@ -144,6 +158,34 @@ void Naming::FindUses() {
       if (!site.callee.Valid() || module_.calls[site.call].new_level) continue;
       for (const Key key : used_[site.callee.value]) again = used_[site.caller.value].insert(key).second || again;
     }
+  }
+}
+
+std::optional<Naming::Block> Naming::CellsOf(const Expr& expr) const {
+  const auto range = IndexRangeOf(module_, ExprId{std::size_t{expr.a}});
+  if (!range) return std::nullopt;
+  for (const std::uint32_t space : common_spaces_) {
+    const Space& record = module_.spaces[SpaceId{std::size_t{space}}];
+    if (range->first >= record.first && range->last <= record.last) return Block{space, range->first, range->last};
+  }
+  return std::nullopt;  // locals, or more than one space
+}
+
+/// Blocks that share cells become one; every cell of a block has a place.
+void Naming::JoinBlocks() {
+  std::sort(blocks_.begin(), blocks_.end(),
+            [](const Block& a, const Block& b) { return a.space != b.space ? a.space < b.space : a.first < b.first; });
+  std::vector<Block> joined;
+  for (const Block& block : blocks_) {
+    if (!joined.empty() && joined.back().space == block.space && block.first <= joined.back().last) {
+      joined.back().last = std::max(joined.back().last, block.last);
+    } else {
+      joined.push_back(block);
+    }
+  }
+  blocks_ = std::move(joined);
+  for (const Block& block : blocks_) {
+    for (std::uint32_t cell = block.first; cell <= block.last; ++cell) common_[{block.space, cell}] = 0;
   }
 }
 
@@ -168,6 +210,40 @@ void Naming::PlaceCommon() {
     if (wish <= config_.cells.last && !taken.contains(wish)) place(cell, wish);
   }
   std::uint32_t next = config_.cells.last;
+  // Blocks that did not keep their distance: together, from the end down.
+  for (const Block& block : blocks_) {
+    const auto in_step = [&] {
+      const std::uint32_t start = common_.at({block.space, block.first});
+      for (std::uint32_t cell = block.first; cell <= block.last; ++cell) {
+        const std::pair<std::uint32_t, std::uint32_t> key{block.space, cell};
+        if (!placed.contains(key) || common_.at(key) != start + cell - block.first) return false;
+      }
+      return true;
+    };
+    if (in_step()) continue;
+    const std::uint32_t count = block.last - block.first + 1;
+    const auto is_free = [&](std::uint32_t start) {
+      for (std::uint32_t i = 0; i < count; ++i) {
+        if (taken.contains(start + i)) return false;
+      }
+      return true;
+    };
+    bool any = false, done = false;
+    for (std::uint32_t cell = block.first; cell <= block.last; ++cell)
+      any = any || placed.contains({block.space, cell});
+    for (std::uint32_t start = config_.cells.last + 1; !any && !done && start-- > config_.cells.first;) {
+      if (start + count > config_.cells.last + 1 || !is_free(start)) continue;
+      for (std::uint32_t i = 0; i < count; ++i) place({block.space, block.first + i}, start + i);
+      done = true;
+    }
+    if (done) continue;
+    result_.ok = false;
+    sink_.Report(
+        diag::Code::kNotExpressible, SourceRange{},
+        fmt::format("a range of {} variables with computed numbers from {} on", count, block.first),
+        fmt::format("the cells {}{} to {}{}", config_.space, config_.cells.first, config_.space, config_.cells.last));
+    return;
+  }
   for (const auto& [cell, unused] : common_) {
     if (placed.contains(cell)) continue;
     while (next > config_.cells.first && taken.contains(next)) --next;
@@ -269,7 +345,7 @@ void Naming::ShareArguments(ProgramId program, BlockId block, Call& call, Progra
     args.push_back(arg);
   }
   if (!words.empty()) {
-    Block made = editor.MakeBlock(block);
+    ir::Block made = editor.MakeBlock(block);
     made.skip_level = module_.blocks[block].skip_level;
     editor.SetWords(made, words);
     editor.InsertBefore(block, made);
@@ -324,7 +400,13 @@ void Naming::Replace(ProgramId program) {
     if (const auto key = KeyOf(expr)) return make_.Variable(names_[program.value].at(*key));
     if (expr.op == ExprOp::kCell && common_spaces_.contains(expr.a))
       return make_.Cell(target_, common_.at({expr.a, expr.b}));
-    return id;
+    if (expr.op != ExprOp::kCellAt || expr.b == target_.value) return id;
+    const Block cells = *CellsOf(expr);
+    const double shift = static_cast<double>(common_.at({cells.space, cells.first})) - cells.first;
+    const ExprId index{std::size_t{expr.a}};
+    if (shift == 0) return make_.CellAt(target_, index);
+    const ExprId step = make_.Literal(std::fabs(shift), Type::kInt);
+    return make_.CellAt(target_, make_.Binary(shift < 0 ? ExprOp::kSubtract : ExprOp::kAdd, index, step));
   });
 }
 
@@ -334,7 +416,7 @@ void Naming::Define(ProgramId program) {
   if (blocks.Empty()) return;
   ProgramEditor editor(module_, program, "definitions");
   const auto put = [&](const std::vector<Word>& words) {
-    Block made = editor.MakeBlock(blocks[0]);
+    ir::Block made = editor.MakeBlock(blocks[0]);
     made.indent = 0;
     editor.SetWords(made, words);
     editor.InsertBefore(blocks[0], made);

@@ -217,6 +217,8 @@ prove::Maps MapsOf(const backends::Translation& translation, bool separate_regis
     pair.target_tool = use.target_tool;
     pair.target_offset = use.target_offset;
     pair.target_radius = use.target_radius;
+    pair.source_radius = use.source_radius;
+    pair.target_name = use.target_name;
     maps.tools.push_back(pair);
   }
   for (const backends::OffsetUse& use : translation.offsets) {
@@ -275,6 +277,11 @@ prove::Verification CompareTranslation(Context& context, const ProgramSet& sourc
   options.compare.source = PrecisionOf(source.profile, source_machine);
   options.compare.target = PrecisionOf(target, target_machine);
   options.compare.maps = MapsOf(translation, !target.IsLathe());
+  if (target.language == dialects::Language::kSinumerik) {
+    options.compare.maps.separate_registers = false;
+    options.compare.maps.source_registers =
+        source.profile.language == dialects::Language::kFanuc && !source.profile.IsLathe();
+  }
   options.compare.maps.cross_language = source.profile.language != target.language;
   options.target_skip_shift = static_cast<int>(target.skip.Or(0) - source.profile.skip.Or(0));
   for (const ir::SpaceId space : module.spaces.Ids()) {

@@ -50,6 +50,7 @@ struct Selected {
   bool tool_known = false;
   std::uint32_t tool = 0;
   std::string_view tool_name;
+  std::uint32_t loaded = 0;  // the tool that the last change word brought in; 0 = none yet
   bool offset_known = false;
   OffsetKind offset_kind = OffsetKind::kNone;
   std::uint32_t offset = 0;
@@ -224,6 +225,7 @@ const Event* Walk::Next() {
       case EventKind::kSetVariable:
         continue;
       case EventKind::kAux:
+        if (event.number == 6 && event.text.empty()) now_.loaded = now_.tool;
         if (event.added) continue;
         if (!source_ && maps_.tool_change_added && event.number == 6) continue;
         if (source_) {
@@ -413,6 +415,22 @@ void Comparer::CompareToolState(const Event& a, const Event& b) {
   const Selected& sa = source_.Now();
   const Selected& sb = target_.Now();
   if (!sa.tool_known || !sb.tool_known) return;
+  constexpr std::uint16_t kZ = 1U << 2U;
+  const bool compensated = sa.comp == ir::CutterComp::kLeft || sa.comp == ir::CutterComp::kRight;
+  if (options_.maps.source_registers) {
+    if (sa.loaded == 0) return;
+    // A length counts when Z moves, a radius under compensation; one edge stands for both.
+    const bool lengthwise = (b.moved_axes & kZ) != 0;
+    const std::uint32_t edge = sb.offset_kind == OffsetKind::kNone ? 0 : sb.offset;
+    bool agree = (!lengthwise || (sa.length == 0 && edge == 0)) && !compensated;
+    for (const ToolPair& pair : options_.maps.tools) {
+      if (pair.source_tool != sa.loaded || pair.target_offset != edge || pair.source_edge == 0) continue;
+      agree = agree ||
+              ((!lengthwise || pair.source_edge == sa.length) && (!compensated || pair.source_radius == sa.radius));
+    }
+    if (!agree) Fail(&a, &b, "the edge in force is not the one that the tool map gives");
+    return;
+  }
   for (const ToolPair& pair : options_.maps.tools) {
     const bool tool = pair.source_name.empty() ? sa.tool_name.empty() && pair.source_tool == sa.tool
                                                : pair.source_name == sa.tool_name;
@@ -421,8 +439,6 @@ void Comparer::CompareToolState(const Event& a, const Event& b) {
       // An edge is a length, which counts when Z moves, and a radius, which counts under compensation.
       const bool off = sa.offset_known && sa.offset_kind == OffsetKind::kNone;
       if (!off && (!sa.offset_known || sa.offset != pair.source_edge)) continue;
-      constexpr std::uint16_t kZ = 1U << 2U;
-      const bool compensated = sa.comp == ir::CutterComp::kLeft || sa.comp == ir::CutterComp::kRight;
       const bool length = (b.moved_axes & kZ) == 0 || sb.length == (off ? 0 : pair.target_offset);
       const bool radius = !compensated || sb.radius == (off ? 0 : pair.target_radius);
       if (length && radius) return;
@@ -471,7 +487,8 @@ void Comparer::ComparePair(const Event& a, const Event& b) {
       if (a.kind != EventKind::kReference) ComparePositions(a, b);
       if (!Failed()) CompareMotionDetails(a, b);
       if (!Failed() && IsCutting(a.kind)) CompareSpindles(a, b, source_.SpindlesNow(), target_.SpindlesNow());
-      if (!Failed() && (IsCutting(a.kind) || (options_.maps.separate_registers && a.kind == EventKind::kRapid)))
+      if (!Failed() && (IsCutting(a.kind) || ((options_.maps.separate_registers || options_.maps.source_registers) &&
+                                              a.kind == EventKind::kRapid)))
         CompareToolState(a, b);
       if (!Failed() && source_.Now().wcs_known && target_.Now().wcs_known) {
         CompareWorkOffset(a, b, source_.Now().wcs, source_.Now().wcs_extension, target_.Now().wcs,

@@ -23,7 +23,8 @@ struct Precision {
 struct ToolPair {
   std::string source_name;  // empty: by number
   std::uint32_t source_tool = 0;
-  std::uint32_t source_edge = 0;  // 0 = any
+  std::uint32_t source_edge = 0;    // 0 = any; a source with registers: that of the length
+  std::uint32_t source_radius = 0;  // a source with registers; 0 = none
   std::string target_name;
   std::uint32_t target_tool = 0;
   std::uint32_t target_offset = 0;  // register of the target; 0 = none
@@ -48,6 +49,7 @@ struct Maps {
   std::vector<std::uint32_t> split_rapids;  // source blocks whose rapid the target writes axis by axis
   bool cross_language = true;               // alarms agree by class, else by their first word
   bool tool_change_added = false;           // M6 of the target, where the source's T changes the tool by itself
+  bool source_registers = false;            // the source names length and radius by registers, the target edges
   bool separate_registers = false;          // the target names length and radius by registers of their own (a mill)
   bool tools_mapped = false;                // tools and offsets go through `tools`; one without an entry differs
 };

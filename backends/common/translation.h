@@ -14,10 +14,12 @@ namespace ncport::backends {
 
 /// A tool call of the source and the words that stand for it.
 struct ToolUse {
-  std::string source_words;  // "T1 D1", `T="ROUGH" D1`
-  std::string target_words;  // "T0101"
-  std::string source_name;   // named tools
-  std::uint32_t source_tool = 0, source_edge = 0;
+  std::string source_words;                        // "T1 D1", `T="ROUGH" D1`
+  std::string target_words;                        // "T0101"
+  std::string source_name;                         // named tools
+  std::string target_name;                         // named tools of the target
+  std::uint32_t source_tool = 0, source_edge = 0;  // a mill with registers: the length is the edge
+  std::uint32_t source_radius = 0;                 // register of such a mill; 0 = none
   std::uint32_t target_tool = 0, target_offset = 0;
   std::uint32_t target_radius = 0;  // mills: D register; 0 = none
 };
@@ -57,7 +59,7 @@ struct Translation {
   std::vector<std::string> added;        // blocks without a source block, with the reason
   std::vector<std::string> required;     // what the machine must have: options, parameters, settings
   std::vector<std::string> assumptions;  // unverified rules and settings that the output rests on, with the card row
-  bool keeps_files = false;  // the programs stay in the files of the source
+  bool keeps_files = false;              // the programs stay in the files of the source
   bool messages_lost = false;
   bool path_lost = false;
   bool tool_change_added = false;  // the target has a change word where the source's tool word changes by itself

@@ -66,6 +66,7 @@ class Pass {
  public:
   Pass(const RaiseInput& input, Translation& out, diag::Sink& sink)
       : input_(input),
+        out_(out),
         module_(out.module),
         sink_(sink),
         make_(out.module),
@@ -125,6 +126,9 @@ class Pass {
     std::vector<Word> words, dwell;
     bool radius = false, feed = false;
     for (const WordId word_id : block.words) {
+      if (module_.words[word_id].op == WordOp::kReference) return Reference(id, block, at, editor);
+    }
+    for (const WordId word_id : block.words) {
       radius = radius || module_.words[word_id].op == WordOp::kRadius;
       feed = feed || module_.words[word_id].op == WordOp::kFeed;
     }
@@ -147,16 +151,6 @@ class Pass {
         case WordOp::kSpeedMode:
           if (!SpeedMode(block, word, before, at)) continue;
           break;
-        case WordOp::kTool:
-        case WordOp::kToolOffset:
-        case WordOp::kToolChange:
-        case WordOp::kRadiusOffset:
-          Refuse(block, word, "a tool or its offset");
-          break;
-        case WordOp::kReference:
-          // Where the reference point lies, and by which word it is reached, only the machine knows.
-          Refuse(block, word, "a move to the reference point");
-          break;
         default:
           break;
       }
@@ -164,6 +158,66 @@ class Pass {
     }
     ThreadLead(block, at, words);
     SetWords(id, block, words, dwell, editor);
+  }
+
+  /// G28 goes by way of the point that its axis words name, and leaves the motion mode alone (fanuc-8.1). The reference
+  /// points of the source are the fixed points 1 and 2 of the target, which the machine builder sets.
+  void Reference(BlockId id, const Block& block, const ir::ModalState& at, ProgramEditor& editor) {
+    std::vector<Word> via, point, other;
+    ir::ReferenceKind kind = ir::ReferenceKind::kFromReference;
+    for (const WordId word_id : block.words) {
+      const Word word = module_.words[word_id];
+      if (SwitchesNothing(word)) continue;
+      if (word.op == WordOp::kReference) {
+        kind = static_cast<ir::ReferenceKind>(word.index);
+        if (kind != ir::ReferenceKind::kReference) {
+          // The number of the fixed point has no place in a comparison, so the second one stays refused.
+          return Refuse(block, word, "a move to another point than the first reference point");
+        }
+      } else if (word.op == WordOp::kAxis) {
+        via.push_back(word);
+        Word axis = word;
+        axis.mode = ir::ValueMode::kModal;
+        axis.value = make_.Number("0");
+        point.push_back(axis);
+      } else if (word.op == WordOp::kDistance) {
+        other.push_back(word);
+      } else {
+        return Refuse(block, word, "a word beside a move to the reference point");
+      }
+    }
+    if (via.empty() || at.motion == ir::Motion::kUnknown || block.skip_level != Block::kNoSkip) {
+      return Refuse(block, module_.words[block.words[0]], "this move to the reference point");
+    }
+    const auto mode = [](WordOp op, std::uint8_t index) {
+      Word word;
+      word.op = op;
+      word.index = index;
+      word.phase = ir::DefaultPhaseOf(op);
+      return word;
+    };
+    std::vector<Word> first = other;
+    first.push_back(mode(WordOp::kMotion, static_cast<std::uint8_t>(ir::Motion::kRapid)));
+    first.insert(first.end(), via.begin(), via.end());
+    Word number = mode(WordOp::kInert, 0);
+    number.spelling = ir::AddSpelling(module_, "FP", "sinumerik-8.2");
+    number.value = make_.Number("1", ir::Type::kInt);
+    point.insert(point.begin(),
+                 {mode(WordOp::kReference, static_cast<std::uint8_t>(ir::ReferenceKind::kFixedPoint)), number});
+    Block changed = block;
+    editor.SetWords(changed, first);
+    module_.blocks[id].words = changed.words;
+    const auto insert = [&](const std::vector<Word>& words) {
+      Block made = editor.MakeBlock(id);
+      editor.SetWords(made, words);
+      editor.InsertAfter(id, made);
+    };
+    insert(point);
+    if (at.motion != ir::Motion::kRapid) insert({mode(WordOp::kMotion, static_cast<std::uint8_t>(at.motion))});
+    static constexpr std::string_view kAssumed =
+        "G75 goes to fixed point 1, which must be the reference point of the source machine (sinumerik-8.2)";
+    if (std::find(out_.assumptions.begin(), out_.assumptions.end(), kAssumed) == out_.assumptions.end())
+      out_.assumptions.emplace_back(kAssumed);
   }
 
   void SetWords(BlockId id, const Block& block, std::vector<Word>& words, const std::vector<Word>& dwell,
@@ -288,6 +342,7 @@ class Pass {
   }
 
   const RaiseInput& input_;
+  Translation& out_;
   Module& module_;
   diag::Sink& sink_;
   ir::ExprBuilder make_;

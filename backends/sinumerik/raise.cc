@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "backends/sinumerik/map_tools.h"
 #include "backends/sinumerik/raise_words.h"
 #include "dialects/sinumerik/words.h"
 #include "ir/analysis/call_graph.h"
@@ -284,6 +285,7 @@ class LegalCheck {
       case WordOp::kExtern:
       case WordOp::kDefine:
       case WordOp::kDwellSeconds:
+      case WordOp::kInert:  // made here: those of the source are gone
         return;
       case WordOp::kTool:
       case WordOp::kToolChange:
@@ -293,6 +295,7 @@ class LegalCheck {
         return;  // each has a pass that refuses it
       case WordOp::kToolOffset:
       case WordOp::kRadiusOffset:
+      case WordOp::kLengthOffset:
       case WordOp::kRestart:
       case WordOp::kSkipRest:
         if (!expressions_) return;
@@ -439,6 +442,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
     SplitStatements(module, program);
   }
   ok = RoundWords(module, machine, entry, sink) && ok;
+  ok = MapTools(input, out, sink) && ok;
   ok = ArrangeWords(input, out, sink) && ok;
   ok = MapOffsets(input, out, sink) && ok;
   ok = MapAuxiliaries(input, out, sink) && ok;

@@ -287,7 +287,7 @@ bool MapAuxiliaries(const RaiseInput& input, Translation& out, diag::Sink& sink)
 void DropSpellings(Translation& out) {
   Module& module = out.module;
   for (Word& word : module.words.All()) {
-    if (word.op == WordOp::kHeader || word.op == WordOp::kDefine) continue;
+    if (word.op == WordOp::kHeader || word.op == WordOp::kDefine || word.op == WordOp::kInert) continue;
     word.spelling = 0;
     word.digits = 0;
     word.flags = static_cast<std::uint8_t>(word.flags & ~Word::kEqualSign);

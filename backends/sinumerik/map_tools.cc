@@ -1,0 +1,525 @@
+#include "backends/sinumerik/map_tools.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <deque>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "ir/analysis/call_graph.h"
+#include "ir/analysis/cfg.h"
+#include "ir/builder.h"
+#include "ir/transform/program_editor.h"
+
+namespace ncport::backends::sinumerik {
+
+namespace {
+
+using ir::Block;
+using ir::BlockId;
+using ir::ExprId;
+using ir::ExprOp;
+using ir::Module;
+using ir::Word;
+using ir::WordId;
+using ir::WordOp;
+using ir::transform::ProgramEditor;
+
+constexpr std::uint8_t kZ = 2;
+
+/// A number that is the same on all ways to a place.
+constexpr std::uint32_t kOpen = 0xFFFFFFFEU;   // it is not
+constexpr std::uint32_t kStale = 0xFFFFFFFDU;  // of the tool before: nothing may rely on it
+
+struct State {
+  bool reached = false;
+  std::uint32_t ready = kOpen;   // T word
+  std::uint32_t tool = kOpen;    // in the spindle
+  std::uint32_t length = kOpen;  // register in force, 0 = off
+  std::uint32_t radius = kOpen;  // D word
+  bool operator==(const State&) const = default;
+};
+
+bool Join(State& into, const State& from) {
+  if (!from.reached) return false;
+  const State before = into;
+  if (!into.reached) {
+    into = from;
+    return true;
+  }
+  const auto join = [](std::uint32_t& a, std::uint32_t b) { a = a == b ? a : kOpen; };
+  // What is stale on one way stays so.
+  const auto join_register = [](std::uint32_t& a, std::uint32_t b) {
+    if (a != b) a = a == kStale || b == kStale ? kStale : kOpen;
+  };
+  join(into.ready, from.ready);
+  join(into.tool, from.tool);
+  join_register(into.length, from.length);
+  join_register(into.radius, from.radius);
+  return into != before;
+}
+
+bool IsToolWord(WordOp op) {
+  return op == WordOp::kTool || op == WordOp::kToolChange || op == WordOp::kToolOffset || op == WordOp::kLengthOffset ||
+         op == WordOp::kRadiusOffset;
+}
+
+std::optional<std::uint32_t> WholeNumber(const Module& module, ExprId id) {
+  const ir::Expr& expr = module.exprs[id];
+  if (expr.op == ExprOp::kGroup) return WholeNumber(module, ExprId{std::size_t{expr.a}});
+  if (expr.op != ExprOp::kLiteral || expr.number < 0 || expr.number > 1e8 || expr.number != std::floor(expr.number))
+    return std::nullopt;
+  return static_cast<std::uint32_t>(expr.number);
+}
+
+/// `T5 D1`, `T="MILL_10" D2`: what stands behind a letter.
+struct TargetTool {
+  std::string words, name;
+  std::uint32_t tool = 0, edge = 1;
+};
+
+std::optional<TargetTool> ParseTarget(std::string_view words) {
+  TargetTool target;
+  target.words = words;
+  bool tool = false;
+  for (std::size_t begin = 0; begin < words.size();) {
+    std::size_t end = begin;
+    for (bool quoted = false; end < words.size() && (quoted || words[end] != ' '); ++end) quoted ^= words[end] == '"';
+    const std::string_view word = words.substr(begin, end - begin);
+    begin = end + 1;
+    if (word.empty()) continue;
+    const char* last = word.data() + word.size();
+    if (word.starts_with("T=\"") && word.ends_with('"') && word.size() > 4) {
+      target.name = word.substr(3, word.size() - 4);
+      tool = true;
+    } else if (word[0] == 'T' || word[0] == 'D') {
+      std::uint32_t& number = word[0] == 'T' ? target.tool : target.edge;
+      if (std::from_chars(word.data() + 1, last, number).ptr != last || word.size() < 2) return std::nullopt;
+      tool = tool || word[0] == 'T';
+    } else if (word != "M6") {
+      return std::nullopt;
+    }
+  }
+  return tool ? std::optional(target) : std::nullopt;
+}
+
+class Pass {
+ public:
+  Pass(const RaiseInput& input, Translation& out, diag::Sink& sink)
+      : input_(input),
+        out_(out),
+        module_(out.module),
+        sink_(sink),
+        make_(out.module),
+        graphs_(out.module),
+        calls_(out.module) {}
+
+  bool Run() {
+    for (const ir::ProgramId program : module_.programs.Ids()) {
+      if (HasToolWords(program)) with_tools_.insert(program.value);
+    }
+    for (bool again = true; again;) {
+      again = false;
+      for (const auto& site : calls_.AllSites()) {
+        if (site.callee.Valid() && with_tools_.contains(site.callee.value))
+          again = with_tools_below_.insert(site.caller.value).second || again;
+        if (site.callee.Valid() && with_tools_below_.contains(site.callee.value))
+          again = with_tools_below_.insert(site.caller.value).second || again;
+      }
+    }
+    if (with_tools_.empty()) {
+      AssumeNoOffset();
+      return true;
+    }
+    for (const ir::ProgramId program : module_.programs.Ids()) Map(program);
+    return ok_;
+  }
+
+ private:
+  [[nodiscard]] bool HasToolWords(ir::ProgramId program) const {
+    for (const BlockId block : module_.programs[program].blocks) {
+      for (const WordId id : module_.blocks[block].words) {
+        const Word& word = module_.words[id];
+        // A word that only switches off what was never on asks for nothing.
+        const bool off = word.op == WordOp::kLengthOffset && word.index == 0 && !word.value.Valid();
+        if (IsToolWord(word.op) && !off) return true;
+      }
+    }
+    return false;
+  }
+
+  /// G53 leaves the tool's offset out; SUPA does not.
+  void AssumeNoOffset() {
+    for (const Block& block : module_.blocks.All()) {
+      for (const WordId id : block.words) {
+        if (module_.words[id].op != WordOp::kMachineCoords) continue;
+        out_.assumptions.emplace_back(
+            "SUPA stands for G53: no tool offset is in force there (sinumerik-12, row 30); test: D0, then the same "
+            "move");
+        return;
+      }
+    }
+  }
+
+  void Refuse(const Block& block, const Word& word, std::string_view what, std::string_view help = {}) {
+    ok_ = false;
+    sink_.Report(diag::Code::kNotExpressible, module_.RangeOf(block, word), what, input_.profile->name).help = help;
+  }
+
+  // --- the flow
+
+  void Through(const Block& block, State& state) const {
+    const bool lathe = input_.source_profile->IsLathe();
+    const State before = state;
+    bool change = false, length = false, radius = false;
+    for (const WordId id : block.words) {
+      const Word& word = module_.words[id];
+      const auto number = word.value.Valid() ? WholeNumber(module_, word.value) : std::nullopt;
+      switch (word.op) {
+        case WordOp::kTool:
+          state.ready = number.value_or(kOpen);
+          if (lathe) state.tool = state.ready;
+          break;
+        case WordOp::kToolChange:
+          change = true;
+          break;
+        case WordOp::kToolOffset:
+        case WordOp::kLengthOffset:
+          if (word.value.Valid()) {
+            state.length = number.value_or(kOpen);
+            length = true;
+          } else if (word.index == 0) {
+            state.length = 0;
+            length = true;
+          }
+          break;
+        case WordOp::kRadiusOffset:
+          state.radius = number.value_or(kOpen);
+          radius = true;
+          break;
+        case WordOp::kCall: {
+          const ir::ProgramId callee = module_.calls[word.Extra<ir::CallId>()].program;
+          if (callee.Valid() && !with_tools_.contains(callee.value) && !with_tools_below_.contains(callee.value)) break;
+          state.ready = state.tool = state.length = state.radius = kOpen;
+          break;
+        }
+        default:
+          break;
+      }
+    }
+    if (change) {
+      state.tool = state.ready;
+      if (!length && state.length != 0) state.length = kStale;
+      if (!radius && state.radius != 0) state.radius = kStale;
+    }
+    if (block.skip_level != Block::kNoSkip) Join(state, before);
+  }
+
+  std::map<std::uint32_t, State> Flow(ir::ProgramId program) const {
+    std::map<std::uint32_t, State> states;
+    const IdRange<BlockId> blocks = module_.programs[program].blocks;
+    if (blocks.Empty()) return states;
+    const ir::analysis::Cfg& cfg = graphs_.Of(program);
+    std::deque<BlockId> work;
+    const auto arrive = [&](BlockId to, const State& state) {
+      if (Join(states[to.value], state)) work.push_back(to);
+    };
+    State start;
+    start.reached = true;
+    if (module_.programs[program].kind == ir::ProgramKind::kMain) start.length = start.radius = 0;
+    arrive(blocks[0], start);
+    while (!work.empty()) {
+      const BlockId id = work.front();
+      work.pop_front();
+      State state = states[id.value];
+      Through(module_.blocks[id], state);
+      for (const ir::analysis::Edge& edge : cfg.Successors(id)) {
+        if (edge.kind == ir::analysis::EdgeKind::kComputed) {
+          for (const BlockId target : cfg.ComputedTargets()) arrive(target, state);
+        } else if (edge.to.Valid()) {
+          arrive(edge.to, state);
+        }
+      }
+    }
+    return states;
+  }
+
+  // --- the map
+
+  const TargetTool* Find(const Block& block, const Word& word, std::uint32_t tool, std::uint32_t length,
+                         std::uint32_t radius) {
+    const auto key = std::tuple{tool, length, radius};
+    if (const auto known = found_.find(key); known != found_.end()) return &known->second;
+    const std::string t = fmt::format("T{}", tool);
+    std::vector<std::string> keys;
+    if (radius != 0) keys.push_back(fmt::format("{} H{} D{}", t, length, radius));
+    keys.push_back(fmt::format("{} H{}", t, length));
+    // The tool alone stands for one length and one radius.
+    const auto [fixed, added] = fixed_.try_emplace(tool, std::pair{length, radius});
+    const bool same_length = fixed->second.first == length;
+    if (radius != 0 && fixed->second.second == 0) fixed->second.second = radius;
+    const bool same_radius = radius == 0 || fixed->second.second == radius;
+    if (same_length && same_radius) keys.push_back(t);
+    const dialects::WordMapping* mapping = nullptr;
+    for (const std::string& each : keys) {
+      if (mapping == nullptr && input_.config != nullptr) mapping = input_.config->FindTool(each);
+    }
+    return Take(block, word, mapping, keys.front(), key);
+  }
+
+  const TargetTool* Take(const Block& block, const Word& word, const dialects::WordMapping* mapping,
+                         const std::string& key_text, std::tuple<std::uint32_t, std::uint32_t, std::uint32_t> key) {
+    const std::optional<TargetTool> target = mapping == nullptr ? std::nullopt : ParseTarget(mapping->target);
+    if (!target) {
+      ok_ = false;
+      if (!asked_.insert(key_text).second) return nullptr;
+      sink_.Report(diag::Code::kUnmappedTool, module_.RangeOf(block, word), key_text).help = fmt::format(
+          "add to ncport.toml, with the tool and edge of your machine:  [tools]  \"{}\" = \"T1 D1\"", key_text);
+      return nullptr;
+    }
+    const auto [tool, length, radius] = key;
+    ToolUse use;
+    use.source_words = key_text;
+    use.target_words = target->words;
+    use.source_tool = tool;
+    use.source_edge = length;
+    use.source_radius = radius;
+    use.target_name = target->name;
+    use.target_tool = target->tool;
+    use.target_offset = target->edge;
+    out_.tools.push_back(use);
+    return &found_.emplace(key, *target).first->second;
+  }
+
+  /// The tool by itself: all keys of it name one.
+  ExprId ToolValue(const Block& block, const Word& word, std::uint32_t tool) {
+    std::optional<TargetTool> target;
+    if (input_.config != nullptr) {
+      const std::string t = fmt::format("T{}", tool);
+      for (const dialects::WordMapping& mapping : input_.config->tools) {
+        if (mapping.source != t && !mapping.source.starts_with(t + " ")) continue;
+        const std::optional<TargetTool> here = ParseTarget(mapping.target);
+        if (!here) continue;
+        if (target && (target->tool != here->tool || target->name != here->name)) {
+          Refuse(block, word, fmt::format("{}, which [tools] maps to more than one tool,", t));
+          return word.value;
+        }
+        target = here;
+      }
+    }
+    if (!target) {
+      ok_ = false;
+      if (asked_.insert(fmt::format("T{}", tool)).second) {
+        sink_.Report(diag::Code::kUnmappedTool, module_.RangeOf(block, word), fmt::format("T{}", tool)).help =
+            fmt::format(
+                "add to ncport.toml, with the tool and edge of your machine:  [tools]  \"T{0} H{0}\" = \"T{0} D1\"",
+                tool);
+      }
+      return word.value;
+    }
+    const auto known = std::find_if(out_.tools.begin(), out_.tools.end(), [&](const ToolUse& use) {
+      return use.source_tool == tool && use.source_edge == 0;
+    });
+    if (known == out_.tools.end()) {
+      ToolUse use;
+      use.source_words = fmt::format("T{}", tool);
+      use.target_words =
+          target->name.empty() ? fmt::format("T{}", target->tool) : fmt::format("T=\"{}\"", target->name);
+      use.source_tool = tool;
+      use.target_name = target->name;
+      use.target_tool = target->tool;
+      out_.tools.push_back(use);
+    }
+    return target->name.empty() ? make_.Literal(target->tool, ir::Type::kInt) : make_.Text(target->name);
+  }
+
+  /// Edge that stands for the registers in force; none after a finding.
+  std::optional<std::uint32_t> EdgeOf(const Block& block, const Word& word, const State& state) {
+    if (state.length == 0 || state.length == kStale) return 0;
+    if (state.length == kOpen || state.tool == kOpen || state.radius == kOpen) {
+      Refuse(block, word, "an offset whose tool or number is not one on all ways here",
+             "write T M6, G43 H and D in one straight run of blocks");
+      return std::nullopt;
+    }
+    const std::uint32_t radius = state.radius == kStale ? 0 : state.radius;
+    const TargetTool* target = Find(block, word, state.tool, state.length, radius);
+    if (target == nullptr) return std::nullopt;
+    return target->edge;
+  }
+
+  // --- the text
+
+  Word EdgeWord(std::uint32_t edge) {
+    Word word;
+    word.op = WordOp::kEdge;
+    word.phase = ir::DefaultPhaseOf(WordOp::kEdge);
+    word.value = make_.Literal(edge, ir::Type::kInt);
+    return word;
+  }
+
+  void Map(ir::ProgramId program) {
+    const std::map<std::uint32_t, State> states = Flow(program);
+    ProgramEditor editor(module_, program, "map_tools");
+    for (const BlockId id : module_.programs[program].blocks) {
+      const auto found = states.find(id.value);
+      if (found == states.end() || !found->second.reached) continue;  // no run gets here
+      if (input_.source_profile->IsLathe()) {
+        MapTurret(id);
+      } else {
+        MapBlock(program, id, found->second, editor);
+      }
+    }
+    editor.Apply();
+  }
+
+  void MapBlock(ir::ProgramId program, BlockId id, const State& before, ProgramEditor& editor) {
+    Block block = module_.blocks[id];
+    State after = before;
+    Through(block, after);
+    std::vector<Word> words;
+    const Word* selects = nullptr;
+    const Word* along = nullptr;
+    const Word* machine = nullptr;
+    for (const WordId word_id : block.words) {
+      Word word = module_.words[word_id];
+      switch (word.op) {
+        case WordOp::kTool: {
+          const auto number = WholeNumber(module_, word.value);
+          if (!number) {
+            Refuse(block, module_.words[word_id], "a computed tool");
+            break;
+          }
+          word.value = ToolValue(block, word, *number);
+          break;
+        }
+        case WordOp::kToolChange:
+          selects = &module_.words[word_id];
+          break;
+        case WordOp::kLengthOffset:
+          if (word.index == 2) Refuse(block, word, "a length offset that counts downward");
+          [[fallthrough]];
+        case WordOp::kRadiusOffset:
+          selects = &module_.words[word_id];
+          continue;
+        case WordOp::kAxis:
+          if (word.index == kZ) along = &module_.words[word_id];
+          break;
+        case WordOp::kMachineCoords:
+          machine = &module_.words[word_id];
+          break;
+        case WordOp::kCutterComp:
+          if (word.index == static_cast<std::uint8_t>(ir::CutterComp::kOff)) break;
+          if (after.length == 0 || after.length == kStale) {
+            Refuse(block, word, "cutter compensation without a length offset, where an edge is both,");
+          } else if (after.radius == 0 || after.radius == kStale) {
+            Refuse(block, word, "cutter compensation without a register of this tool");
+          }
+          break;
+        case WordOp::kCall:
+          if (before.length == kStale) Refuse(block, word, "a call between a tool change and its length offset");
+          break;
+        default:
+          break;
+      }
+      words.push_back(word);
+    }
+    const bool mine = with_tools_.contains(program.value);
+    if (along != nullptr && machine == nullptr && (after.length == kStale || (mine && after.length == kOpen)))
+      Refuse(block, *along, "a move along Z between a tool change and its length offset");
+    const auto edge = selects != nullptr ? EdgeOf(block, *selects, after) : std::nullopt;
+    if (selects != nullptr && !edge) return;
+    if (edge) words.push_back(EdgeWord(*edge));
+    if (machine != nullptr && along != nullptr && (mine || after.length != kOpen)) {
+      // G53 leaves the tool's offset out, SUPA does not: off for this block (sinumerik-12, row 30).
+      const auto active = EdgeOf(block, *machine, after);
+      if (!active) return;
+      if (*active != 0) {
+        words.push_back(EdgeWord(0));
+        Block again = editor.MakeBlock(id);
+        again.skip_level = block.skip_level;
+        editor.SetWords(again, {EdgeWord(*active)});
+        editor.InsertAfter(id, again);
+      }
+    }
+    editor.SetWords(block, words);
+    module_.blocks[id].words = block.words;
+  }
+
+  /// T0101: the change and the offset at once; a row of [tools] each.
+  void MapTurret(BlockId id) {
+    Block block = module_.blocks[id];
+    std::vector<Word> words;
+    const Word* tool = nullptr;
+    const Word* offset = nullptr;
+    for (const WordId word_id : block.words) {
+      const Word& word = module_.words[word_id];
+      if (word.op == WordOp::kTool) {
+        tool = &word;
+      } else if (word.op == WordOp::kToolOffset) {
+        offset = &word;
+      } else {
+        words.push_back(word);
+      }
+    }
+    if (tool == nullptr && offset == nullptr) return;
+    const Word at = tool != nullptr ? *tool : *offset;
+    const auto station = tool != nullptr ? WholeNumber(module_, tool->value) : std::optional<std::uint32_t>(0);
+    const auto number = offset != nullptr ? WholeNumber(module_, offset->value) : std::nullopt;
+    if (!station || !number || *station == 0) {
+      if (number && *number == 0) {
+        words.insert(words.begin(), EdgeWord(0));  // T0000, T00: the offset is off
+      } else {
+        return Refuse(block, at, "an offset without its tool");
+      }
+    } else {
+      const std::string form = input_.source_profile->words.tool.Or("");
+      const int digits = form.find("{offset:03}") != std::string::npos ? 3
+                         : form.find("{offset}") != std::string::npos  ? 1
+                                                                       : 2;
+      const int all = std::max<int>(at.digits, digits + 1);
+      const auto text_of = [&](std::uint32_t register_number) {
+        return fmt::format("T{:0{}}{:0{}}", *station, all - digits, register_number, digits);
+      };
+      const dialects::WordMapping* mapping =
+          input_.config == nullptr ? nullptr : input_.config->FindTool(text_of(*number));
+      // T0100 is the tool without its offset: any row of the tool names it.
+      for (std::uint32_t i = 1; *number == 0 && mapping == nullptr && input_.config != nullptr && i < 100; ++i)
+        mapping = input_.config->FindTool(text_of(i));
+      const TargetTool* target = Take(block, at, mapping, text_of(*number), {*station, *number, 0});
+      if (target == nullptr) return;
+      Word change = at;
+      change.op = WordOp::kTool;
+      change.value = target->name.empty() ? make_.Literal(target->tool, ir::Type::kInt) : make_.Text(target->name);
+      words.insert(words.begin(), {change, EdgeWord(*number == 0 ? 0 : target->edge)});
+    }
+    ProgramEditor(module_, {}, "map_tools").SetWords(block, words);
+    module_.blocks[id].words = block.words;
+  }
+
+  const RaiseInput& input_;
+  Translation& out_;
+  Module& module_;
+  diag::Sink& sink_;
+  ir::ExprBuilder make_;
+  ir::analysis::FlowGraphs graphs_;
+  ir::analysis::CallGraph calls_;
+  std::set<std::uint32_t> with_tools_, with_tools_below_;
+  std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, TargetTool> found_;
+  std::map<std::uint32_t, std::pair<std::uint32_t, std::uint32_t>> fixed_;
+  std::set<std::string> asked_;
+  bool ok_ = true;
+};
+
+}  // namespace
+
+bool MapTools(const RaiseInput& input, Translation& out, diag::Sink& sink) { return Pass(input, out, sink).Run(); }
+
+}  // namespace ncport::backends::sinumerik

@@ -49,6 +49,11 @@ struct Running {
   std::uint64_t max_text_bytes = RunSettings{}.max_text_bytes;
 };
 
+bool IsFolder(const std::string& path) {
+  struct stat info {};
+  return ::stat(path.c_str(), &info) == 0 && S_ISDIR(info.st_mode);
+}
+
 /// Findings about the command line, profiles and configuration: the programs are not to blame.
 bool IsUsage(diag::Code code) {
   using diag::Code;
@@ -77,6 +82,10 @@ class Session {
   /// Reads configuration and inputs. False: a message was printed, the exit code is kUsage.
   bool Read() {
     for (const std::string& file : common_.files) {
+      if (IsFolder(file)) {
+        Say(fmt::format("{0} is a folder: name the programs in it ({0}/*); -I {0} finds called programs there", file));
+        return false;
+      }
       std::string error;
       std::optional<std::string> bytes = ReadBytes(file, error);
       if (!bytes) {
@@ -295,11 +304,6 @@ struct TranslateArguments : Common, Running {
   std::uint32_t runs = 200;
   std::uint64_t seed = 1;
 };
-
-bool IsFolder(const std::string& path) {
-  struct stat info {};
-  return ::stat(path.c_str(), &info) == 0 && S_ISDIR(info.st_mode);
-}
 
 int RunTranslate(const TranslateArguments& arguments) {
   Session session(arguments);

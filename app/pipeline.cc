@@ -57,6 +57,24 @@ Status ReadCalled(Context& context, const ReadSettings& settings, ProgramSet& se
   return ok;
 }
 
+/// The language was guessed from the first file: another file that is certainly in another language is not read by it.
+Status SameLanguage(Context& context, const std::vector<Input>& inputs, const ReadSettings& settings,
+                    const dialects::Profile& profile) {
+  if (!settings.from.empty() || (settings.config != nullptr && settings.config->from)) return {};
+  Status ok;
+  for (std::size_t i = 1; i < inputs.size(); ++i) {
+    const dialects::LanguageGuess guess = dialects::GuessLanguage(inputs[i].name, DecodeText(inputs[i].bytes).text);
+    if (!guess.Certain() || guess.languages.front() == profile.language) continue;
+    const std::string why =
+        fmt::format("it seems to be {} ({}), and {} is read as {}", dialects::NameOf(guess.languages.front()),
+                    guess.reasons.front(), inputs.front().name, dialects::NameOf(profile.language));
+    context.findings.Report(diag::Code::kUnclearLanguage, SourceRange{}, inputs[i].name, why).help =
+        "give files of one control at a time, or name the machine of all with --from";
+    ok = Failure{};
+  }
+  return ok;
+}
+
 }  // namespace
 
 Result<dialects::Profile> ChooseProfile(Context& context, const Input& first, const ReadSettings& settings,
@@ -84,6 +102,7 @@ Result<dialects::Profile> ChooseProfile(Context& context, const Input& first, co
 Status ReadSet(Context& context, const std::vector<Input>& inputs, const ReadSettings& settings, ProfileNeed need,
                ProgramSet& set) {
   NCPORT_TRY_ASSIGN(set.profile, ChooseProfile(context, inputs.front(), settings, need));
+  NCPORT_TRY(SameLanguage(context, inputs, settings, set.profile));
   Status ok;
   for (const Input& input : inputs) {
     if (const FileId known = context.files.Find(input.name);

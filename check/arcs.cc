@@ -6,6 +6,7 @@
 
 #include "check/expressions.h"
 #include "check/rules.h"
+#include "dialects/finding_alarms.h"
 
 namespace ncport::check {
 namespace {
@@ -52,6 +53,24 @@ bool KeepsCoordinates(WordOp op) {
   }
 }
 
+/// Words that move the coordinate system, or what numbers count, before the axis words of their block act.
+bool RenewsCoordinates(WordOp op) {
+  switch (op) {
+    case WordOp::kWorkOffset:
+    case WordOp::kUnits:
+    case WordOp::kDiameter:
+    case WordOp::kTool:
+    case WordOp::kToolChange:
+    case WordOp::kToolOffset:
+    case WordOp::kEdge:
+    case WordOp::kLengthOffset:
+    case WordOp::kRadiusOffset:
+      return true;
+    default:
+      return false;
+  }
+}
+
 /// Follows the positions that stand in the text through blocks that run one after the other.
 class ArcCheck {
  public:
@@ -86,9 +105,14 @@ class ArcCheck {
     if (block.words.Empty()) return;
     const ir::ModalState modes = subject_.modal.At(program_, id);
     const ir::ModalState before = subject_.modal.Before(program_, id);
-    bool keeps = block.skip_level == ir::Block::kNoSkip && modes.diameter == before.diameter;
-    for (const ir::WordId word : block.words) keeps = keeps && KeepsCoordinates(module_.words[word].op);
-    if (!keeps) return Forget();
+    bool keeps = block.skip_level == ir::Block::kNoSkip;
+    bool renews = modes.diameter != before.diameter;
+    for (const ir::WordId word : block.words) {
+      renews = renews || RenewsCoordinates(module_.words[word].op);
+      keeps = keeps && (KeepsCoordinates(module_.words[word].op) || RenewsCoordinates(module_.words[word].op));
+    }
+    if (!keeps || renews) Forget();
+    if (!keeps) return;
     const Values start = at_;
     Move(block, modes);
     const bool arc = modes.motion == ir::Motion::kArcCw || modes.motion == ir::Motion::kArcCcw;
@@ -182,6 +206,7 @@ class ArcCheck {
     place.end = last->begin + last->length;
     diag::Diagnostic& finding =
         sink_.Report(diag::Code::kArcRadius, place, fmt::format("{:.6g}", at_start), fmt::format("{:.6g}", at_end));
+    finding.control = dialects::AlarmFor(subject_.profile, finding.code);
     finding.notes.push_back({{}, fmt::format("the control takes a difference of {:.4g}", tolerance)});
     finding.help = "one of the end point and the centre is wrong; the centre counts from the start point";
   }

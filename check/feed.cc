@@ -1,6 +1,7 @@
 #include <vector>
 
 #include "check/rules.h"
+#include "dialects/finding_alarms.h"
 
 namespace ncport::check {
 namespace {
@@ -212,8 +213,9 @@ void CheckFeed(const Subject& subject, diag::Sink& sink) {
       if (moving == nullptr) continue;
       const ir::ModalState modes = subject.modal.At(program, id);
       if (!FeedMotion(modes.motion) || modes.feed_mode == ir::FeedMode::kInverseTime) continue;
-      sink.Report(diag::Code::kMissingFeed, subject.PlaceOf(id, *moving)).help =
-          "no block on the way here sets a feed: write F in this block";
+      diag::Diagnostic& finding = sink.Report(diag::Code::kMissingFeed, subject.PlaceOf(id, *moving));
+      finding.help = "no block on the way here sets a feed: write F in this block";
+      finding.control = dialects::AlarmFor(subject.profile, finding.code);
       break;  // once a program: the next moves lack the same word
     }
   }

@@ -7,6 +7,7 @@
 #include "base/near_name.h"
 #include "check/rules.h"
 #include "check/targets.h"
+#include "dialects/finding_alarms.h"
 
 namespace ncport::check {
 namespace {
@@ -49,6 +50,7 @@ void CheckLabels(const Subject& subject, ir::ProgramId program, diag::Sink& sink
       // A block that was not understood has its finding; the jump to it needs none.
       if (subject.InRefusedBlock(program, name)) return;
       diag::Diagnostic& finding = sink.Report(diag::Code::kUnknownLabel, subject.PlaceOf(block, use.word), name);
+      finding.control = dialects::AlarmFor(subject.profile, finding.code);
       const BlockId elsewhere = labels.Find(use.target, block, Search::kForwardThenFromStart);
       if (elsewhere.Valid()) {
         finding.notes.push_back({module.RangeOf(module.blocks[elsewhere]), "it stands here"});

@@ -13,6 +13,7 @@ void CheckPrograms(const Subject& subject, diag::Sink& sink) {
     CheckArcs(subject, program, sink);
   }
   CheckUnusedNames(subject, sink);
+  CheckExterns(subject, sink);
   CheckRecursion(subject, sink);
   CheckFeed(subject, sink);
 }

@@ -30,6 +30,8 @@ void CheckArcs(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
 
 /// NC2007: variables and parameters that no block uses.
 void CheckUnusedNames(const Subject& subject, diag::Sink& sink);
+/// NC2004, NC2011: declarations of called programs that do not fit them.
+void CheckExterns(const Subject& subject, diag::Sink& sink);
 /// NC4006: every way through a program calls it again.
 void CheckRecursion(const Subject& subject, diag::Sink& sink);
 /// NC5002: a feed move on no way to which a feed was set.

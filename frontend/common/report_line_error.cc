@@ -6,7 +6,8 @@
 
 namespace ncport::frontend {
 
-void ReportLineError(const LineError& error, std::string_view line, SourceRange at, diag::Sink& sink) {
+void ReportLineError(const LineError& error, std::string_view line, SourceRange at, diag::Sink& sink,
+                     std::string_view alarm) {
   using diag::Code;
   at.begin = error.begin;
   at.end = error.begin + error.length;
@@ -57,6 +58,7 @@ void ReportLineError(const LineError& error, std::string_view line, SourceRange 
       break;
   }
   if (error.help != nullptr) finding->help = error.help;
+  finding->control = alarm;
   if (error.code == Code::kSplitOperator) {
     std::string joined;
     for (const char c : word) {

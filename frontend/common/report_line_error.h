@@ -9,6 +9,7 @@
 namespace ncport::frontend {
 
 /// `line`: the text that the error's bytes count in; `at`: its file and line.
-void ReportLineError(const LineError& error, std::string_view line, SourceRange at, diag::Sink& sink);
+void ReportLineError(const LineError& error, std::string_view line, SourceRange at, diag::Sink& sink,
+                     std::string_view alarm = {});
 
 }  // namespace ncport::frontend

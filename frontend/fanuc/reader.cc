@@ -2,12 +2,14 @@
 
 #include <algorithm>
 
+#include "dialects/finding_alarms.h"
 #include "frontend/common/add_spaces.h"
 #include "frontend/common/chars.h"
 #include "frontend/common/line_error.h"
 #include "frontend/common/module_mark.h"
 #include "frontend/common/report_line_error.h"
 #include "frontend/common/shape_cache.h"
+#include "frontend/fanuc/hints.h"
 #include "frontend/fanuc/lower.h"
 #include "frontend/fanuc/parser.h"
 #include "frontend/fanuc/reader_state.h"
@@ -47,6 +49,27 @@ WordOp MarkOf(K structure, std::span<const Token> tokens) {
       return WordOp::kEndWhile;
     default:
       return WordOp::kMotion;
+  }
+}
+
+/// A mark as programs write it.
+std::string_view MarkName(WordOp mark) {
+  switch (mark) {
+    case WordOp::kIf:
+      return "IF";
+    case WordOp::kElse:
+      return "ELSE";
+    case WordOp::kEndIf:
+      return "ENDIF";
+    case WordOp::kWhile:
+      return "WHILE";
+    case WordOp::kLoop:
+      return "DO";
+    case WordOp::kEndWhile:
+    case WordOp::kEndLoop:
+      return "END";
+    default:
+      return NameOf(mark);
   }
 }
 
@@ -97,7 +120,7 @@ class Reader {
     if (!state_.program.Valid()) return;
     ir::Program& program = module_.programs[state_.program];
     program.blocks.count = static_cast<std::uint32_t>(module_.blocks.Size()) - program.blocks.begin;
-    ir::BuildStructure(module_, state_.program, 0, sink_);
+    ir::BuildStructure(module_, state_.program, 0, sink_, MarkName);
     state_.program = {};
   }
 
@@ -156,7 +179,7 @@ class Reader {
       state_.program_used = true;
       lowering_.ReplayHead(tokens, block);
       if (const LineError* error = Words(text, block)) {
-        ReportLineError(*error, text, {file_, line, 0, 0}, sink_);
+        ReportLineError(*error, text, {file_, line, 0, 0}, sink_, dialects::AlarmFor(profile_, error->code));
         Refuse(text, block, begin);
       } else {
         used_comment = lowering_.TextComment();
@@ -170,7 +193,11 @@ class Reader {
   // Words of the block; null = done, else why not. What was added is then taken back.
   const LineError* Words(std::string_view text, ir::Block& block) {
     const std::span<const Token> tokens = source_.Tokens();
-    if (source_.Error() != nullptr) return source_.Error();
+    if (source_.Error() != nullptr) {
+      error_ = *source_.Error();
+      ExplainError(text, error_, help_);
+      return &error_;
+    }
     if (const Token* refused = source_.Refused()) {
       error_ = {.code = Code::kNotSupported, .begin = refused->offset, .length = refused->length};
       return &error_;
@@ -184,13 +211,16 @@ class Reader {
                 .length = at_end ? 0 : tokens[recipe.error.token].length,
                 .help = recipe.error.help,
                 .detail = recipe.error.expected};
+      ExplainError(text, error_, help_);
       return &error_;
     }
     const ModuleMark mark(module_);
     if (!lowering_.Replay(recipe, tokens, source_.Comments(), text, block)) {
       mark.Rollback(module_);
       block.words.count = 0;
-      return &lowering_.Error();
+      error_ = lowering_.Error();
+      ExplainError(text, error_, help_);
+      return &error_;
     }
     return nullptr;
   }
@@ -280,6 +310,7 @@ class Reader {
   BlockParser parser_;
   Recipe uncached_;
   LineError error_;
+  std::string help_;  // of error_
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "dialects/finding_alarms.h"
 #include "frontend/common/add_spaces.h"
 #include "frontend/common/chars.h"
 #include "frontend/common/line_error.h"
@@ -226,7 +227,7 @@ class Reader {
       lowering_.ReplayHead(tokens, block);
       if (const LineError* error = Words(text, line, block)) {
         error = ExplainLines(*error, text, line);
-        ReportLineError(*error, text, {file_, line, 0, 0}, sink_);
+        ReportLineError(*error, text, {file_, line, 0, 0}, sink_, AlarmOf(*error, text));
         Refuse(text, block, HeadEnd(tokens, source_.Indent()));
       }
     }
@@ -280,6 +281,12 @@ class Reader {
     }
     if (state_.definitions_open && !lowering_.OnlyDefinitions()) CloseDefinitions(block);
     return nullptr;
+  }
+
+  /// The alarm that the control raises. It has one of its own for G codes; M codes go to the builder's part.
+  [[nodiscard]] std::string_view AlarmOf(const LineError& error, std::string_view text) const {
+    if (error.code == Code::kUnknownCode && (error.begin >= text.size() || Upper(text[error.begin]) != 'G')) return {};
+    return dialects::AlarmFor(profile_, error.code);
   }
 
   /// Lines that belong together but cannot: there is no continuation line.

@@ -4,6 +4,7 @@
 
 #include "base/near_name.h"
 #include "base/result.h"
+#include "dialects/finding_alarms.h"
 #include "dialects/sinumerik/library.h"
 #include "dialects/sinumerik/words.h"
 #include "frontend/common/chars.h"
@@ -151,7 +152,13 @@ bool Resolver::FindAxis(std::string_view name, std::uint8_t& axis) const {
 
 bool Resolver::UnknownName(ExprId id, std::string_view name) {
   // The definition has its finding; the blocks that use the name need none.
-  if (refused_names_.contains(UpperOf(name))) return false;
+  const std::string key = UpperOf(name);
+  if (refused_names_.contains(key)) return false;
+  // One definition is missing, however often the name is used.
+  if (const auto known = missing_names_.find(key); known != missing_names_.end()) {
+    ++known->second.more;
+    return false;
+  }
   diag::Diagnostic& finding = sink_.Report(Code::kUnknownName, module_.RangeOf(module_.blocks[block_], id), name);
   std::vector<std::string_view> known;
   for (const auto& [key, variable] : variables_) {
@@ -161,6 +168,8 @@ bool Resolver::UnknownName(ExprId id, std::string_view name) {
   std::sort(known.begin(), known.end());
   const std::string_view near = NearName(name, known);
   if (!near.empty()) finding.help = "did you mean " + std::string(near) + "?";
+  missing_names_.emplace(key, Missing{&finding});
+  finding.control = dialects::AlarmFor(profile_, finding.code);
   const auto main = std::find_if(variables_.begin(), variables_.end(), [&](const auto& entry) {
     const ir::Variable& record = module_.variables[entry.second];
     return record.scope == Scope::kProgram && IsWord(module_.View(record.name), UpperOf(name));
@@ -209,8 +218,18 @@ void Resolver::Program(ir::ProgramId program) {
   program_ = program;
   CollectLabels(program);
   CollectRefusedNames(program);
+  missing_names_.clear();
   for (const ir::BlockId id : module_.programs[program].blocks) {
     if (!module_.blocks[id].words.Empty()) Block(id);
+  }
+  CountMissingNames();
+}
+
+void Resolver::CountMissingNames() {
+  for (const auto& [name, missing] : missing_names_) {
+    if (missing.more == 0) continue;
+    missing.finding->notes.push_back(
+        {{}, "it is used " + std::to_string(missing.more) + (missing.more == 1 ? " more time" : " more times")});
   }
 }
 

@@ -38,6 +38,7 @@ class Resolver {
   bool Switch(ir::SwitchId id);
   void CollectLabels(ir::ProgramId program);
   void CollectRefusedNames(ir::ProgramId program);
+  void CountMissingNames();
   void Refuse(ir::Block& block);
   [[nodiscard]] ir::VariableId FindVariable(std::string_view name) const;
   [[nodiscard]] bool FindAxis(std::string_view name, std::uint8_t& axis) const;
@@ -82,6 +83,11 @@ class Resolver {
   std::unordered_map<std::string, ir::VariableId> variables_;  // "<owner>:<NAME>"; owner empty: visible everywhere
   std::unordered_set<std::string> labels_;                     // of program_, upper case
   std::unordered_set<std::string> refused_names_;              // words of definitions that were not understood
+  struct Missing {
+    diag::Diagnostic* finding;
+    std::uint32_t more = 0;  // further blocks that use the name
+  };
+  std::unordered_map<std::string, Missing> missing_names_;  // of program_, upper case
   std::unordered_set<std::string> missing_programs_;
   ir::VariableId defined_;  // whose start value is resolved
 };

@@ -75,6 +75,16 @@ TEST_CASE("variables and parameters that nothing uses") {
   CHECK(Sub("PROC SUB1(INT COUNT)\nDEF REAL AB[3]\nG0 X=AB[COUNT]\nM17\n").empty());
 }
 
+TEST_CASE("declarations of called programs") {
+  const std::string sub = "M30\n%_N_SUB1_SPF\nPROC SUB1(REAL AB, INT CD)\nG0 X=AB Y=CD\nM17\n";
+  CHECK(Mill("EXTERN SUB1(REAL)\nSUB1(1,2)\n" + sub) == "NC2011 1");
+  CHECK(Mill("EXTERN SUB1(REAL,REAL)\nSUB1(1,2)\n" + sub) == "NC2004 1");
+  CHECK(Mill("EXTERN SUB1(REAL,VAR INT)\nSUB1(1,2)\n" + sub) == "NC2004 1");
+  CHECK(Mill("EXTERN SUB1(REAL,INT)\nSUB1(1,2)\n" + sub).empty());
+  CHECK(Mill("SUB1\n" + sub).empty());
+  CHECK(Mill("SUB2\nM30\n%_N_SUB2_SPF\nG0 X1\nM17\n").empty());
+}
+
 TEST_CASE("jumps into structures") {
   CHECK(Mill("GOTOF N20\nIF R1>1\nN20 G0 X1\nENDIF\nM30\n") == "NC4004 1");
   CHECK(Mill("IF R1>1\nN10 GOTOF N20\nELSE\nN20 G0 X1\nENDIF\nM30\n") == "NC4004 2");
@@ -121,6 +131,7 @@ TEST_CASE("arcs whose ends lie on no circle") {
   CHECK(Mill("G0 X0 Y0\nG2 X10 Y0 I5 J0 F100\nG2 I-5\nM30\n").empty());
   CHECK(Lathe("G18 DIAMON\nG0 X20 Z0 F0.1\nG2 X40 Z-10 I10 K0\nM30\n").empty());
   CHECK(Mill("G0 X0 Y0\nTRANS X1\nG2 X10 Y0 I4 J0 F100\nM30\n").empty());
+  CHECK(Macro("O1\nG90 G0 G54 X0. Y0.\nG2 X10. Y0. I4. J0. F100.\nM30\n") == "NC5004 3");
   CHECK(Mill("G0 X=R1 Y0\nG2 X10 Y0 I4 J0 F100\nM30\n").empty());
 }
 

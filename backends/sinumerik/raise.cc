@@ -17,6 +17,7 @@
 #include "ir/transform/adapt_expressions.h"
 #include "ir/transform/conditional_blocks.h"
 #include "ir/transform/empty_values.h"
+#include "ir/transform/expand_cycles.h"
 #include "ir/transform/numbers_to_names.h"
 #include "ir/transform/resolve_increments.h"
 #include "ir/transform/resolve_jumps.h"
@@ -467,6 +468,10 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   const EmptyValuesResult empty = EmptyValues(module, empty_config, sink);
   ok = empty.ok && ok;
   if (!ok) return false;
+  ExpandCyclesConfig cycles;
+  cycles.sub_entry = entry;
+  cycles.position = ir::AddSystem(module, "$P_EP", ir::SystemKind::kProgrammedPosition);
+  if (!input.source_profile->IsLathe() && !ExpandCycles(module, machine, cycles, sink)) return false;
 
   AdaptExpressionsConfig expressions;
   expressions.relative_comparisons = true;

@@ -69,7 +69,6 @@ class Naming {
   std::vector<std::uint8_t> shared_, valued_;  // called with shared locals, with arguments
   std::vector<std::vector<Key>> parameters_;   // in order
   std::vector<std::map<Key, VariableId>> names_;
-  std::vector<std::vector<VariableId>> extra_;  // holders of shared arguments
 };
 
 void Naming::FindSpaces() {
@@ -108,7 +107,6 @@ void Naming::FindUses() {
   valued_.resize(count);
   parameters_.resize(count);
   names_.resize(count);
-  extra_.resize(count);
   std::map<std::uint32_t, std::set<std::uint32_t>> common;
   for (const ProgramId program : module_.programs.Ids()) {
     RewriteProgram(module_, program, [&](Module& module, ExprId id) {
@@ -332,7 +330,6 @@ void Naming::ShareArguments(ProgramId program, BlockId block, Call& call, Progra
       if (module_.args[id].position == key) value = module_.args[id].value;
     }
     const VariableId holder = NewLocal(module_, program, NameOf(key) + "_ARG", type);
-    extra_[program.value].push_back(holder);
     Word word;
     word.op = WordOp::kAssign;
     word.phase = DefaultPhaseOf(WordOp::kAssign);
@@ -455,12 +452,11 @@ void Naming::Define(ProgramId program) {
   }
   for (const Type type : {Type::kReal, Type::kBool}) {
     std::vector<Word> words;
-    const auto define = [&](VariableId id) {
+    for (const VariableId id : module_.variables.Ids()) {
       const Variable& variable = module_.variables[id];
-      if (variable.type == type && variable.scope == Scope::kLocal) words.push_back(word_of(WordOp::kDefine, id.value));
-    };
-    for (const auto& [key, id] : names_[program.value]) define(id);
-    for (const VariableId id : extra_[program.value]) define(id);
+      if (variable.owner == program && variable.type == type && variable.scope == Scope::kLocal)
+        words.push_back(word_of(WordOp::kDefine, id.value));
+    }
     if (!words.empty()) put(words);
   }
   editor.Apply();

@@ -1,0 +1,535 @@
+#include "ir/transform/expand_cycles.h"
+
+#include <cmath>
+#include <deque>
+#include <map>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <vector>
+
+#include "ir/analysis/call_graph.h"
+#include "ir/analysis/cfg.h"
+#include "ir/analysis/modal_state.h"
+#include "ir/builder.h"
+#include "ir/transform/new_local.h"
+#include "ir/transform/program_editor.h"
+
+namespace ncport::ir::transform {
+
+namespace {
+
+constexpr std::uint32_t kUnset = 0xFFFFFFFFU, kOpen = 0xFFFFFFFEU;
+constexpr auto kNoCycle = static_cast<std::uint32_t>(Cycle::kNone);
+
+enum Field : std::uint8_t { kLevel, kDepth, kStep, kDwell, kFields };
+
+/// What holds at a place: the cycle, and an expression for each of its data (a literal, or a local).
+struct State {
+  bool reached = false;
+  std::uint32_t cycle = kNoCycle;
+  std::uint32_t fields[kFields] = {kUnset, kUnset, kUnset, kUnset};
+  bool initial = false;  // the local holds the level at which the cycle began
+  bool operator==(const State&) const = default;
+};
+
+bool Join(State& into, const State& from) {
+  if (!from.reached) return false;
+  const State before = into;
+  if (!into.reached) {
+    into = from;
+    return true;
+  }
+  const auto join = [](std::uint32_t& a, std::uint32_t b) { a = a == b ? a : kOpen; };
+  join(into.cycle, from.cycle);
+  for (std::uint8_t i = 0; i < kFields; ++i) join(into.fields[i], from.fields[i]);
+  into.initial = into.initial && from.initial;
+  return into != before;
+}
+
+bool IsHole(std::uint32_t cycle) {
+  return cycle >= static_cast<std::uint32_t>(Cycle::kDrill) && cycle <= static_cast<std::uint32_t>(Cycle::kBoreManual);
+}
+
+class Pass {
+ public:
+  Pass(Module& module, const Machine& source, const ExpandCyclesConfig& config, diag::Sink& sink)
+      : module_(module),
+        source_(source),
+        config_(config),
+        sink_(sink),
+        make_(module),
+        graphs_(module),
+        calls_(module),
+        flow_(module, source, graphs_, calls_, {source.start, config.sub_entry}) {}
+
+  bool Run() {
+    bool any = false;
+    for (const ProgramId program : module_.programs.Ids()) any = UsesHoles(program) || any;
+    if (!any) return true;
+    for (const ProgramId program : module_.programs.Ids()) {
+      if (UsesHoles(program)) Expand(program);
+    }
+    return ok_;
+  }
+
+ private:
+  [[nodiscard]] bool UsesHoles(ProgramId program) const {
+    for (const BlockId block : module_.programs[program].blocks) {
+      for (const WordId id : module_.blocks[block].words) {
+        if (module_.words[id].op == WordOp::kCycle && IsHole(module_.words[id].index)) return true;
+      }
+    }
+    return false;
+  }
+
+  void Refuse(const Block& block, std::string_view what) {
+    ok_ = false;
+    sink_.Report(diag::Code::kNotExpressible, module_.RangeOf(block), what, "a language without drilling modes");
+  }
+
+  /// What a block says about holes.
+  struct Parts {
+    std::uint32_t cycle = kUnset;
+    bool motion = false, level = false;
+    const Word* values[kFields] = {};  // as written
+    const Word* repeats = nullptr;
+    std::vector<Word> place;  // axis words but the depth
+    bool geometry = false;    // a place or a depth
+  };
+
+  [[nodiscard]] Parts PartsOf(BlockId id, std::uint8_t normal, bool in_cycle) const {
+    Parts parts;
+    const Block& block = module_.blocks[id];
+    for (const WordId word_id : block.words) {
+      const Word& word = module_.words[word_id];
+      if (word.op == WordOp::kCycle) parts.cycle = word.index;
+      if (word.op == WordOp::kMotion) parts.motion = true;
+    }
+    const bool holes = parts.cycle != kUnset ? IsHole(parts.cycle) : in_cycle && !parts.motion;
+    if (!holes) return parts;
+    for (const WordId word_id : block.words) {
+      const Word& word = module_.words[word_id];
+      switch (word.op) {
+        case WordOp::kAxis:
+          if (word.index == normal) {
+            parts.values[kDepth] = &module_.words[word_id];
+          } else {
+            parts.place.push_back(word);
+          }
+          parts.geometry = parts.geometry || word.index < 3;
+          break;
+        case WordOp::kRadius:
+          parts.values[kLevel] = &module_.words[word_id];
+          break;
+        case WordOp::kCenter:
+          if (word.index == 2) parts.repeats = &module_.words[word_id];
+          break;
+        case WordOp::kCycleValue:
+          switch (static_cast<CycleField>(word.index)) {
+            case CycleField::kLevel:
+              parts.values[kLevel] = &module_.words[word_id];
+              break;
+            case CycleField::kStep:
+              parts.values[kStep] = &module_.words[word_id];
+              break;
+            case CycleField::kDwell:
+              parts.values[kDwell] = &module_.words[word_id];
+              break;
+            case CycleField::kRepeats:
+              parts.repeats = &module_.words[word_id];
+              break;
+            default:
+              break;
+          }
+          break;
+        default:
+          break;
+      }
+    }
+    return parts;
+  }
+
+  ExprId Local(std::uint8_t field) {
+    static constexpr std::string_view kNames[] = {"U_LEVEL", "U_DEPTH", "U_PECK", "U_DWELL"};
+    if (!locals_[field].Valid())
+      locals_[field] = make_.Variable(NewLocal(module_, program_, kNames[field], Type::kReal));
+    return locals_[field];
+  }
+  ExprId Initial() {
+    if (!initial_.Valid()) initial_ = make_.Variable(NewLocal(module_, program_, "U_INITIAL", Type::kReal));
+    return initial_;
+  }
+
+  [[nodiscard]] std::optional<double> LiteralOf(ExprId id) const {
+    if (id.value == kUnset || id.value == kOpen) return std::nullopt;
+    const Expr& expr = module_.exprs[id];
+    if (expr.op == ExprOp::kGroup) return LiteralOf(ExprId{std::size_t{expr.a}});
+    if (expr.op == ExprOp::kNegate) {
+      const auto value = LiteralOf(ExprId{std::size_t{expr.a}});
+      return value ? std::optional(-*value) : std::nullopt;
+    }
+    return expr.op == ExprOp::kLiteral ? std::optional(expr.number) : std::nullopt;
+  }
+
+  [[nodiscard]] static std::uint8_t NormalOf(Plane plane) {
+    return plane == Plane::kZX ? 1 : plane == Plane::kYZ ? 0 : 2;
+  }
+
+  /// Data of the block as expressions; `assigns`: what must be computed in front of it.
+  void Store(const Parts& parts, bool incremental, State& state, std::vector<std::pair<ExprId, ExprId>>* assigns) {
+    if (parts.cycle != kUnset) {
+      if (!IsHole(parts.cycle) || !IsHole(state.cycle)) state = {.reached = true};
+      state.cycle = parts.cycle;
+    } else if (parts.motion) {
+      state = {.reached = true};
+    }
+    if (!IsHole(state.cycle)) return;
+    // A place, a depth or a level begins the first hole: there the initial level is taken.
+    bool begins = parts.geometry;
+    for (const Word* value : parts.values) begins = begins || value != nullptr;
+    if (begins && !state.initial) {
+      state.initial = true;
+      if (assigns != nullptr) {
+        assigns->emplace_back(Initial(), ExprId{});
+      } else {
+        static_cast<void>(Initial());
+      }
+    }
+    for (std::uint8_t field = 0; field < kFields; ++field) {
+      const Word* word = parts.values[field];
+      if (word == nullptr) continue;
+      const bool step = field == kDepth && word->mode == ValueMode::kIncremental;
+      const bool adds = (incremental && (field == kLevel || field == kDepth)) || step;
+      if (LiteralOf(word->value) && !adds) {
+        state.fields[field] = word->value.value;
+        continue;
+      }
+      state.fields[field] = Local(field).value;
+      if (assigns == nullptr) continue;
+      const ExprId base = field == kLevel ? Initial() : ExprId{state.fields[kLevel]};
+      assigns->emplace_back(Local(field), adds ? make_.Binary(ExprOp::kAdd, base, word->value) : word->value);
+    }
+  }
+
+  void Expand(ProgramId program) {
+    program_ = program;
+    for (ExprId& local : locals_) local = {};
+    initial_ = {};
+    const IdRange<BlockId> blocks = module_.programs[program].blocks;
+    const analysis::Cfg& cfg = graphs_.Of(program);
+    std::map<std::uint32_t, State> states;
+    std::deque<BlockId> work;
+    const auto arrive = [&](BlockId to, const State& state) {
+      if (Join(states[to.value], state)) work.push_back(to);
+    };
+    State start;
+    start.reached = true;
+    if (module_.programs[program].kind != ProgramKind::kMain) start.cycle = kOpen;
+    arrive(blocks[0], start);
+    while (!work.empty()) {
+      const BlockId id = work.front();
+      work.pop_front();
+      State state = states[id.value];
+      const State before = state;
+      const ModalState at = flow_.At(program, id);
+      Store(PartsOf(id, NormalOf(at.plane), IsHole(state.cycle)), at.distance == Distance::kIncremental, state,
+            nullptr);
+      if (module_.blocks[id].skip_level != Block::kNoSkip) Join(state, before);
+      for (const analysis::Edge& edge : cfg.Successors(id)) {
+        if (edge.kind == analysis::EdgeKind::kComputed) {
+          for (const BlockId target : cfg.ComputedTargets()) arrive(target, state);
+        } else if (edge.to.Valid()) {
+          arrive(edge.to, state);
+        }
+      }
+    }
+    ProgramEditor editor(module_, program, "expand_cycles");
+    for (const BlockId id : blocks) {
+      const auto found = states.find(id.value);
+      if (found != states.end() && found->second.reached) MapBlock(id, found->second, editor);
+    }
+    editor.Apply();
+  }
+
+  static bool IsHoleWord(const Word& word) {
+    return word.op == WordOp::kCycle || word.op == WordOp::kCycleValue || word.op == WordOp::kReturnLevel;
+  }
+
+  void MapBlock(BlockId id, const State& before, ProgramEditor& editor) {
+    const Block block = module_.blocks[id];
+    const ModalState at = flow_.At(program_, id);
+    const std::uint8_t normal = NormalOf(at.plane);
+    const bool open = before.cycle == kOpen;
+    const Parts parts = PartsOf(id, normal, IsHole(before.cycle));
+    bool moves = false, says = false;
+    for (const WordId word_id : block.words) {
+      const Word& word = module_.words[word_id];
+      moves = moves || word.op == WordOp::kAxis;
+      says = says || IsHoleWord(word);
+      if ((word.op == WordOp::kCall || word.op == WordOp::kModalCall || word.op == WordOp::kReference ||
+           word.op == WordOp::kMachineCoords || word.op == WordOp::kFrame) &&
+          IsHole(before.cycle)) {
+        return Refuse(block, "a call, shift or reference move while a drilling cycle is in force");
+      }
+    }
+    // A subprogram that begins with moves relies on its callers to have no cycle in force; so does this one.
+    if (open && parts.cycle == kUnset && !parts.motion && moves)
+      return Refuse(block, "a move under a cycle of the caller");
+    State state = before;
+    std::vector<std::pair<ExprId, ExprId>> assigns;
+    Store(parts, at.distance == Distance::kIncremental, state, &assigns);
+    if (!IsHole(state.cycle)) {
+      if (!says) return;
+      return EndCycle(id, block, before, at, editor);
+    }
+    Holes(id, block, parts, state, assigns, at, normal, editor);
+  }
+
+  /// G80: the motion mode is again what it was before the cycle, whatever the expanded moves left.
+  void EndCycle(BlockId id, const Block& block, const State& before, const ModalState& at, ProgramEditor& editor) {
+    std::vector<Word> words;
+    bool motion = false;
+    for (const WordId word_id : block.words) motion = motion || module_.words[word_id].op == WordOp::kMotion;
+    for (const WordId word_id : block.words) {
+      const Word word = module_.words[word_id];
+      if (!IsHoleWord(word)) {
+        words.push_back(word);
+        continue;
+      }
+      if (word.op != WordOp::kCycle) continue;
+      if (word.index != static_cast<std::uint8_t>(Cycle::kNone)) {
+        words.push_back(word);  // no hole: another pass, or refused
+      } else if (!motion && before.cycle != kNoCycle) {
+        if (at.motion == Motion::kUnknown) return Refuse(block, "the end of a cycle behind an unknown motion mode");
+        words.push_back(MotionWord(at.motion));
+      }
+    }
+    Block changed = block;
+    editor.SetWords(changed, words);
+    module_.blocks[id].words = changed.words;
+    if (words.empty()) editor.Remove(id);
+  }
+
+  static Word Make(WordOp op, std::uint8_t index = 0, ExprId value = {}, std::uint32_t extra = Id<void>::kNone) {
+    Word word;
+    word.op = op;
+    word.index = index;
+    word.phase = DefaultPhaseOf(op);
+    word.value = value;
+    word.extra = extra;
+    return word;
+  }
+  static Word MotionWord(Motion motion) { return Make(WordOp::kMotion, static_cast<std::uint8_t>(motion)); }
+
+  void Holes(BlockId id, const Block& block, const Parts& parts, const State& state,
+             const std::vector<std::pair<ExprId, ExprId>>& assigns, const ModalState& at, std::uint8_t normal,
+             ProgramEditor& editor) {
+    if (at.plane == Plane::kUnknown || at.distance == Distance::kUnknown)
+      return Refuse(block, "a drilling cycle whose plane or distance mode is not one here");
+    std::vector<Word> first, last;
+    for (const WordId word_id : block.words) {
+      const Word word = module_.words[word_id];
+      const bool of_hole = IsHoleWord(word) || word.op == WordOp::kAxis || word.op == WordOp::kRadius ||
+                           (word.op == WordOp::kCenter && word.index == 2);
+      if (of_hole) continue;
+      if (word.op == WordOp::kCenter) return Refuse(block, "centre words in a cycle");
+      if (word.op == WordOp::kDwellSeconds) return Refuse(block, "a dwell beside a cycle");
+      const bool behind = word.phase == Phase::kAfter || word.phase == Phase::kLast;
+      (behind ? last : first).push_back(word);
+    }
+    bool start = true;
+    const auto put = [&](const std::vector<Word>& words) {
+      Block made = editor.MakeBlock(id);
+      made.skip_level = block.skip_level;
+      if (start) {
+        made.number = block.number;
+        made.number_digits = block.number_digits;
+        made.label = block.label;
+        made.comments = block.comments;
+      }
+      start = false;
+      editor.SetWords(made, words);
+      editor.InsertBefore(id, made);
+    };
+    const auto finish = [&] {
+      if (!last.empty()) put(last);
+      if (start) put({});
+      module_.blocks[id].comments = {};
+      module_.blocks[id].label = {};
+      module_.blocks[id].number = Block::kNoNumber;
+      editor.Remove(id);
+    };
+    for (const auto& [local, value] : assigns) {
+      const ExprId now = value.Valid() ? value : make_.System(config_.position, {make_.AxisName(normal)});
+      put({Make(WordOp::kAssign, 0, now, local.value)});
+    }
+    if (!parts.geometry && parts.values[kLevel] == nullptr) {
+      if (!parts.place.empty()) {
+        first.push_back(MotionWord(Motion::kRapid));
+        first.insert(first.end(), parts.place.begin(), parts.place.end());
+      }
+      if (!first.empty()) put(first);
+      return finish();
+    }
+    double repeats = 1;
+    if (parts.repeats != nullptr) {
+      const auto count = LiteralOf(parts.repeats->value);
+      if (!count || *count < 0 || *count > 9999) return Refuse(block, "a computed number of repetitions");
+      repeats = std::round(*count);
+    }
+    if (state.fields[kLevel] >= kOpen || state.fields[kDepth] >= kOpen)
+      return Refuse(block, "a drilling cycle whose level or depth is not one on all ways here");
+    if (at.return_level == ReturnLevel::kUnknown)
+      return Refuse(block, "a drilling cycle whose return level is not known");
+    if (repeats == 0) {
+      if (!first.empty()) put(first);
+      return finish();
+    }
+    if (repeats > 1) {
+      if (block.skip_level != Block::kNoSkip) return Refuse(block, "repetitions of a cycle in a skipped block");
+      if (!first.empty()) put(first);
+      first.clear();
+      const ExprId turn = make_.Variable(NewLocal(module_, program_, "U_TURN", Type::kReal));
+      put({Make(WordOp::kAssign, 0, make_.Number("0"), turn.value)});
+      Expr less = module_.exprs[make_.Binary(ExprOp::kLess, turn, make_.Literal(repeats, Type::kInt))];
+      less.flags |= Expr::kTolerance;  // whole numbers
+      put({Make(WordOp::kWhile, 0, module_.AddExpr(less))});
+      if (!Hole(block, parts, state, at, normal, first, put)) return;
+      put({Make(WordOp::kAssign, 0, make_.Binary(ExprOp::kAdd, turn, make_.Number("1")), turn.value)});
+      put({Make(WordOp::kEndWhile)});
+    } else if (!Hole(block, parts, state, at, normal, first, put)) {
+      return;
+    }
+    finish();
+  }
+
+  /// One hole, as exec::Kinematics::DrillHole makes it.
+  template <class Put>
+  bool Hole(const Block& block, const Parts& parts, const State& state, const ModalState& at, std::uint8_t normal,
+            std::vector<Word> first, const Put& put) {
+    const ExprId level{state.fields[kLevel]}, depth{state.fields[kDepth]};
+    const auto axis = [&](ExprId value) {
+      Word word = Make(WordOp::kAxis, normal, value);
+      word.mode = at.distance == Distance::kIncremental ? ValueMode::kAbsolute : ValueMode::kModal;
+      return word;
+    };
+    const auto rapid = [&](ExprId value) { put(std::vector<Word>{MotionWord(Motion::kRapid), axis(value)}); };
+    const auto feed = [&](ExprId value) { put(std::vector<Word>{MotionWord(Motion::kLinear), axis(value)}); };
+    const auto back = [&] { rapid(at.return_level == ReturnLevel::kInitial ? Initial() : level); };
+    const auto spindle = [&](SpindleState sense) {
+      put(std::vector<Word>{Make(WordOp::kSpindle, 0, {}, static_cast<std::uint32_t>(sense))});
+    };
+    const auto pause = [&]() -> bool {
+      if (state.fields[kDwell] == kUnset) return true;
+      const auto seconds = LiteralOf(ExprId{state.fields[kDwell]});
+      if (!seconds) {
+        Refuse(block, "a computed dwell of a cycle");
+        return false;
+      }
+      if (*seconds > 0) put(std::vector<Word>{Make(WordOp::kDwellSeconds, 0, ExprId{state.fields[kDwell]})});
+      return true;
+    };
+    const bool inch = at.units == Units::kInch || at.units == Units::kInchGeometry;
+    if (at.units == Units::kUnknown) {
+      Refuse(block, "a drilling cycle whose unit of lengths is not known");
+      return false;
+    }
+    if (!parts.place.empty()) {
+      first.push_back(MotionWord(Motion::kRapid));
+      first.insert(first.end(), parts.place.begin(), parts.place.end());
+    }
+    if (!first.empty()) put(first);
+    rapid(level);
+    switch (static_cast<Cycle>(state.cycle)) {
+      case Cycle::kDrill:
+        feed(depth);
+        break;
+      case Cycle::kDrillDwell:
+        feed(depth);
+        if (!pause()) return false;
+        break;
+      case Cycle::kPeck:
+      case Cycle::kPeckChip:
+        if (!Pecks(block, state, inch ? 25.4 : 1, rapid, feed)) return false;
+        break;
+      case Cycle::kTap:
+      case Cycle::kTapLeft: {
+        if (state.fields[kStep] != kUnset) {
+          Refuse(block, "tapping with pecks");
+          return false;
+        }
+        const bool left = state.cycle == static_cast<std::uint32_t>(Cycle::kTapLeft);
+        feed(depth);
+        if (!pause()) return false;
+        spindle(left ? SpindleState::kCw : SpindleState::kCcw);
+        feed(level);
+        spindle(left ? SpindleState::kCcw : SpindleState::kCw);
+        break;
+      }
+      case Cycle::kBoreFeed:
+        feed(depth);
+        feed(level);
+        break;
+      case Cycle::kBoreDwell:
+        feed(depth);
+        if (!pause()) return false;
+        feed(level);
+        break;
+      default:
+        Refuse(block, "this drilling cycle, whose way the text does not tell,");
+        return false;
+    }
+    back();
+    return true;
+  }
+
+  template <class Move>
+  bool Pecks(const Block& block, const State& state, double unit, const Move& rapid, const auto& feed) {
+    const ExprId level_expr{state.fields[kLevel]};
+    const auto level = LiteralOf(level_expr), depth = LiteralOf(ExprId{state.fields[kDepth]});
+    const double size = std::fabs(LiteralOf(ExprId{state.fields[kStep]}).value_or(0));
+    if (!level || !depth || size == 0 || std::fabs(*depth - *level) / size > config_.most_pecks) {
+      Refuse(block, "peck drilling with computed data, or in more steps than are written out,");
+      return false;
+    }
+    const bool full = state.cycle == static_cast<std::uint32_t>(Cycle::kPeck);
+    const double down = *depth < *level ? -1 : 1;
+    // The machine's clearances are mm, words are what the units in force say.
+    const double clearance = (full ? source_.peck_clearance : source_.chip_back_off) / unit;
+    double reached = *level;
+    for (int turn = 1;; ++turn) {
+      double next = *level + down * size * turn;
+      const bool last = (next - *depth) * down >= -1e-9;
+      if (last) next = *depth;
+      if (turn > 1) {
+        if (full) rapid(level_expr);
+        rapid(make_.Literal(reached - down * clearance));
+      }
+      feed(last ? ExprId{state.fields[kDepth]} : make_.Literal(next));
+      reached = next;
+      if (last) return true;
+    }
+  }
+
+  Module& module_;
+  const Machine& source_;
+  const ExpandCyclesConfig& config_;
+  diag::Sink& sink_;
+  ExprBuilder make_;
+  analysis::FlowGraphs graphs_;
+  analysis::CallGraph calls_;
+  analysis::ModalFlow flow_;
+  ProgramId program_;
+  ExprId locals_[kFields];
+  ExprId initial_;
+  bool ok_ = true;
+};
+
+}  // namespace
+
+bool ExpandCycles(Module& module, const Machine& source, const ExpandCyclesConfig& config, diag::Sink& sink) {
+  return Pass(module, source, config, sink).Run();
+}
+
+}  // namespace ncport::ir::transform

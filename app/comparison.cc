@@ -206,8 +206,16 @@ void Binder::Cells(ir::ProgramId entry, const ir::Machine& machine, std::vector<
   }
 }
 
-prove::Maps MapsOf(const backends::Translation& translation, bool separate_registers) {
+prove::Maps MapsOf(const ir::Module& source, const backends::Translation& translation, bool separate_registers) {
   prove::Maps maps;
+  for (const ir::BlockId id : source.blocks.Ids()) {
+    const ir::OriginId origin = source.blocks[id].origin;
+    if (!origin.Valid()) continue;
+    for (const backends::BlockPlace& place : translation.split_rapids) {
+      if (source.origins[origin].file == place.file && source.origins[origin].line == place.line)
+        maps.split_rapids.push_back(id.value);
+    }
+  }
   maps.tools_mapped = !translation.tools.empty();
   for (const backends::ToolUse& use : translation.tools) {
     prove::ToolPair pair;
@@ -276,7 +284,7 @@ prove::Verification CompareTranslation(Context& context, const ProgramSet& sourc
   options.poison_distance = !target.words.absolute.Or("").empty();
   options.compare.source = PrecisionOf(source.profile, source_machine);
   options.compare.target = PrecisionOf(target, target_machine);
-  options.compare.maps = MapsOf(translation, !target.IsLathe());
+  options.compare.maps = MapsOf(source.module, translation, !target.IsLathe());
   if (target.language == dialects::Language::kSinumerik) {
     options.compare.maps.separate_registers = false;
     options.compare.maps.source_registers =

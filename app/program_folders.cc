@@ -32,6 +32,13 @@ std::string PlainName(std::string_view program) {
   return name;
 }
 
+/// "o4001" -> "4001"; empty: not a number.
+std::string NumberOf(std::string_view name) {
+  if (name.starts_with('o')) name.remove_prefix(1);
+  const bool digits = !name.empty() && name.find_first_not_of("0123456789") == std::string_view::npos;
+  return digits ? std::string(name) : std::string();
+}
+
 }  // namespace
 
 void ProgramFolders::ReadFolders() {
@@ -54,9 +61,18 @@ void ProgramFolders::ReadFolders() {
 std::optional<Input> ProgramFolders::Find(std::string_view program) {
   if (!read_) ReadFolders();
   const std::string name = PlainName(program);
+  std::vector<std::string> wanted{name + ".spf", name + ".mpf"};
+  // A number is the name of its file, with or without the O: O4001 is 4001.EIA on Mazak (mazak-lathe-1), O4001.NC
+  // elsewhere.
+  if (const std::string digits = NumberOf(name); !digits.empty()) {
+    for (const char* ending : {".eia", ".nc", ""}) {
+      wanted.push_back(digits + ending);
+      wanted.push_back("o" + digits + ending);
+    }
+  }
   for (std::size_t i = 0; i < files_.size(); ++i) {
-    for (const char* ending : {".spf", ".mpf"}) {
-      const auto found = files_[i].find(name + ending);
+    for (const std::string& file : wanted) {
+      const auto found = files_[i].find(file);
       if (found == files_[i].end()) continue;
       std::string path = folders_[i];
       if (!path.ends_with('/')) path += '/';

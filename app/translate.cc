@@ -56,8 +56,9 @@ Status Translate(Context& context, const std::vector<Input>& inputs, const Trans
   NCPORT_TRY_ASSIGN(const dialects::Profile target,
                     dialects::LoadProfile(target_name, context.files, context.findings));
   const ir::Machine machine = dialects::MachineFor(set.profile);
+  const dialects::Config config = options.config != nullptr ? options.config->For(target_name) : dialects::Config{};
   backends::Translation translation;
-  const backends::TranslateInput input{&set.module, &set.profile, &machine, &target, options.config};
+  const backends::TranslateInput input{&set.module, &set.profile, &machine, &target, &config};
   if (!backends::Raise(input, translation, context.findings)) return Failure{};
   std::vector<backends::OutputFile> files = backends::Print(target, translation, {});
 
@@ -66,8 +67,8 @@ Status Translate(Context& context, const std::vector<Input>& inputs, const Trans
   if (options.verify) {
     NCPORT_TRY_ASSIGN(const exec::RunOptions run, app::RunOptionsFor(context, set, options));
     const app::ComparisonSetup setup{options.runs, options.seed, options.max_blocks};
-    verification = app::CompareTranslation(context, set, machine, run.entry, target, translation, files, options.config,
-                                           setup, varied);
+    verification =
+        app::CompareTranslation(context, set, machine, run.entry, target, translation, files, &config, setup, varied);
     if (verification->difference) ReportDifference(context, set, *verification, varied);
     if (!verification->difference && !verification->compared) ReportNotCompared(context, set, *verification);
     result.summary = app::SummaryOf(*verification, varied);

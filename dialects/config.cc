@@ -122,6 +122,16 @@ class Reader {
     const std::string source = SingleBlanks(member.key);
     if (source.empty())
       return Refuse(path, member.value, "behind words of the source: an empty key maps nothing; a key");
+    if (member.value.kind == TomlKind::kTable && !member.value.members.empty()) {
+      for (const TomlMember& machine : member.value.members) {
+        if (machine.value.kind != TomlKind::kText || machine.value.text.empty()) {
+          Refuse(fmt::format("{}.{}", path, machine.key), machine.value, "a text, words of that machine,");
+        } else {
+          mappings.push_back({source, SingleBlanks(machine.value.text), machine.key_at, machine.key});
+        }
+      }
+      return;
+    }
     if (member.value.kind != TomlKind::kText || member.value.text.empty()) {
       return Refuse(path, member.value, "a text, words of the target,");
     }
@@ -130,7 +140,7 @@ class Reader {
       sink_.Report(Code::kDoubleName, member.key_at, path).notes.push_back({other.at, "first here"});
       return;
     }
-    mappings.push_back({source, SingleBlanks(member.value.text), member.key_at});
+    mappings.push_back({source, SingleBlanks(member.value.text), member.key_at, {}});
   }
 
   void ReadProgram(const std::string& path, const TomlMember& member) {
@@ -265,6 +275,25 @@ const WordMapping* FindWords(const std::vector<WordMapping>& mappings, std::stri
 }
 
 }  // namespace
+
+Config Config::For(std::string_view target) const {
+  // "shop/integrex.toml" -> "integrex"; of a built-in profile a part of its name will do: "mazak-integrex-new".
+  if (const std::size_t slash = target.rfind('/'); slash != std::string_view::npos) target.remove_prefix(slash + 1);
+  if (target.ends_with(".toml")) target.remove_suffix(5);
+  const auto names = [target](std::string_view machine) {
+    for (std::size_t at = target.find(machine); at != std::string_view::npos; at = target.find(machine, at + 1)) {
+      const std::size_t end = at + machine.size();
+      if ((at == 0 || target[at - 1] == '-') && (end == target.size() || target[end] == '-')) return true;
+    }
+    return false;
+  };
+  Config chosen = *this;
+  for (std::vector<WordMapping>* mappings : {&chosen.tools, &chosen.offsets, &chosen.variables}) {
+    std::erase_if(*mappings,
+                  [&](const WordMapping& mapping) { return !mapping.machine.empty() && !names(mapping.machine); });
+  }
+  return chosen;
+}
 
 const WordMapping* Config::FindTool(std::string_view words) const {
   const std::string wanted = SingleBlanks(words);

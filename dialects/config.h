@@ -15,11 +15,13 @@
 
 namespace ncport::dialects {
 
-/// One line `"T1 D1" = "T0101"`: words with single blanks.
+/// One line `"T1 D1" = "T0101"`: words with single blanks. A folder whose programs go to several machines names the
+/// words of each: `"T1 D1" = { qtn = "T0101", integrex = "T01.01 M6" }`, by profile name or the name of its file.
 struct WordMapping {
   std::string source;
   std::string target;
   SourceRange at;
+  std::string machine;  // empty: for all
 };
 struct ProgramMapping {
   std::string source;
@@ -58,6 +60,8 @@ struct Config {
   std::optional<FailOn> fail_on;
   std::vector<std::string> select, ignore;
 
+  /// This configuration as it holds for a target profile: of the words that are named by machine, its own.
+  [[nodiscard]] Config For(std::string_view target) const;
   /// The target words of a tool call, work offset, variable; none = not mapped. "T1" also finds the key "T1 D1".
   [[nodiscard]] const WordMapping* FindTool(std::string_view words) const;
   [[nodiscard]] const WordMapping* FindOffset(std::string_view word) const;

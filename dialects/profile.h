@@ -204,10 +204,11 @@ struct FanucSettings {
   Setting<WorkZero> work_zero;  // key "wcs"
   Setting<FeedSpindle> feed_spindle;
   Setting<std::string> leave_mazatrol;  // block that leaves the MAZATROL coordinate system; empty: none
-  Setting<std::string> b_position;      // block that turns B to the turning position
-  Setting<std::string> safe_z;          // safe Z in machine coordinates, mm
-  Setting<bool> c_axis;                 // M202 before turning
-  Setting<bool> o_word;                 // programs begin with an O word
+  Setting<std::string> b_position;      // angle of B for turning, as written ("90."); empty: programs do not turn B
+  Setting<std::vector<std::string>> b_blocks;  // that turn B to {b}
+  Setting<std::string> safe_z;                 // safe Z in machine coordinates, mm
+  Setting<bool> c_axis;                        // M202 before turning
+  Setting<bool> o_word;                        // programs begin with an O word
 };
 
 /// Settings of SINUMERIK controls (sinumerik card; machine data MD, setting data SD).

@@ -167,6 +167,24 @@ Result<Profile> LoadProfile(std::string_view name_or_path, SourceFiles& files, d
   return std::move(parts.profile);
 }
 
+/// The values as a TOML file writes them: "yes" | "no".
+std::string QuotedValues(const KeyRow& row) {
+  const std::string values = ValuesOf(row);
+  const bool words = std::holds_alternative<ChoiceKey>(row.binding) || std::holds_alternative<FlagKey>(row.binding);
+  if (std::holds_alternative<TextKey>(row.binding)) return fmt::format("\"{}\"", values);
+  if (!words) return values;
+  std::string quoted = "\"";
+  for (const char c : values) {
+    if (c == ' ') continue;
+    if (c == '|') {
+      quoted += "\" | \"";
+    } else {
+      quoted += c;
+    }
+  }
+  return quoted + "\"";
+}
+
 void ReportOpenKey(const Profile& profile, std::string_view key, const SourceRange& at, diag::Sink& sink) {
   const KeyRow* row = FindKey(key);
   NCPORT_CHECK(row != nullptr, "'{}' is no profile key", key);
@@ -174,7 +192,7 @@ void ReportOpenKey(const Profile& profile, std::string_view key, const SourceRan
   finding.notes.push_back({{}, fmt::format("{}: {}", key, row->meaning)});
   finding.help = fmt::format("add to a profile file{}: {} = {}",
                              IsPath(profile.name) ? "" : fmt::format(" with inherits = \"{}\"", profile.name), key,
-                             ValuesOf(*row));
+                             QuotedValues(*row));
   // Built-in profiles that answer the question are the shortest answer: mazak-integrex-old, mazak-integrex-new.
   std::string answers;
   for (const BuiltInProfile& other : BuiltInProfiles()) {

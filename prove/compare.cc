@@ -552,13 +552,14 @@ bool Comparer::SkipSplitRapid(const Event& a) {
   }
   const Event* piece = target_.Next();
   while (piece != nullptr && piece->kind == EventKind::kRapid) {
-    bool there = true;
+    bool there = (a.known_axes & ~piece->known_axes) == 0;  // an axis that is still unknown comes with a later piece
     for (std::uint8_t axis = 0; axis < ir::kMaxAxes; ++axis) {
       if ((a.known_axes & piece->known_axes) >> axis & 1U) {
         there = there && std::fabs(a.position[axis] - piece->position[axis]) <= Allowed(a, *piece, axis);
       }
     }
     if (there) return false;  // the last piece is compared as the rapid itself
+    target_.MotionDone(*piece);
     target_.Advance();
     piece = target_.Next();
   }
@@ -582,6 +583,14 @@ Comparison Comparer::Run() {
     if (b == nullptr) {
       Fail(a, nullptr, "the target ends before the source");
       break;
+    }
+    // The head of the target selected the offset before the program does: a repeated state is no event. Each motion
+    // compares what is in force.
+    if (a->kind == EventKind::kWorkOffset && b->kind != EventKind::kWorkOffset && target_.Now().wcs_known) {
+      CompareWorkOffset(*a, *b, a->number, a->extension, target_.Now().wcs, target_.Now().wcs_extension);
+      ++result_.events_compared;
+      source_.Advance();
+      continue;
     }
     ComparePair(*a, *b);
     ++result_.events_compared;

@@ -40,6 +40,11 @@ struct ProgramName {
   std::string target;     // "4001"
   bool main = false;
 };
+/// A block of the source by its place.
+struct BlockPlace {
+  FileId file;
+  std::uint32_t line = 0;
+};
 /// A listed loss (contracts section 3).
 struct Loss {
   SourceRange at;
@@ -56,6 +61,7 @@ struct Translation {
   std::vector<AuxUse> aux;
   std::vector<AlarmUse> alarms;
   std::vector<Loss> losses;
+  std::vector<BlockPlace> split_rapids;  // rapids that are written in pieces
   std::vector<std::string> added;        // blocks without a source block, with the reason
   std::vector<std::string> required;     // what the machine must have: options, parameters, settings
   std::vector<std::string> assumptions;  // unverified rules and settings that the output rests on, with the card row

@@ -22,6 +22,12 @@ using ir::Word;
 using ir::WordOp;
 using ir::transform::ProgramEditor;
 
+constexpr std::string_view kSafeZ = "{safe-z}", kB = "{b}";
+
+bool IsMazakLathe(const dialects::Profile& profile) {
+  return profile.fanuc.variant.Is(dialects::FanucSettings::Variant::kMazak) && profile.IsLathe();
+}
+
 Word TextWord(Module& module, std::string_view text) {
   Word word;
   word.op = WordOp::kInert;
@@ -50,6 +56,25 @@ bool IsTool(const Module& module, const Translation& out, BlockId id) {
       return true;
   }
   return false;
+}
+
+/// Lines of the profile with its own values in their holes, without words of axes that the machine does not have.
+/// NeedFrame has seen to it that the values are known.
+std::vector<std::string> Filled(const dialects::Profile& profile, const std::vector<std::string>& lines) {
+  const bool has_y = std::find(profile.axes.begin(), profile.axes.end(), "Y") != profile.axes.end();
+  std::vector<std::string> filled;
+  for (std::string line : lines) {
+    const auto fill = [&](std::string_view hole, const dialects::Setting<std::string>& value) {
+      const std::size_t at = line.find(hole);
+      if (at != std::string::npos) line.replace(at, hole.size(), *value);
+    };
+    fill(kSafeZ, profile.fanuc.safe_z);
+    fill(kB, profile.fanuc.b_position);
+    // "G0 G53 X0. Y0." (mazak-lathe-10.3)
+    if (const std::size_t y = line.find(" Y0."); !has_y && y != std::string::npos) line.erase(y, 4);
+    filled.push_back(std::move(line));
+  }
+  return filled;
 }
 
 /// The safety line for profiles that give no header of their own: one word of each group.
@@ -90,18 +115,39 @@ std::vector<std::string> SafetyLines(const RaiseInput& input, bool calls_tools) 
 
 }  // namespace
 
-bool FrameMainPrograms(const RaiseInput& input, Translation& out, diag::Sink& sink) {
+bool NeedFrame(const RaiseInput& input, diag::Sink& sink) {
+  const dialects::Profile& profile = *input.profile;
+  const SourceRange nowhere{};
+  bool known = dialects::Need(profile, profile.words.header, nowhere, sink);
+  known = dialects::Need(profile, profile.words.footer, nowhere, sink) && known;
+  const auto uses = [&](std::string_view hole) {
+    const auto in = [&](const dialects::Setting<std::vector<std::string>>& lines) {
+      if (!lines.Known()) return false;
+      return std::any_of(lines->begin(), lines->end(),
+                         [&](const std::string& line) { return line.find(hole) != std::string::npos; });
+    };
+    return in(profile.words.header) || in(profile.words.footer) || in(profile.words.home) ||
+           in(profile.words.safe_position);
+  };
+  if (uses(kSafeZ)) known = dialects::Need(profile, profile.fanuc.safe_z, nowhere, sink) && known;
+  if (!IsMazakLathe(profile)) return known;
+  known = dialects::Need(profile, profile.fanuc.c_axis, nowhere, sink) && known;
+  if (!profile.series.Is(dialects::Series::kM)) return known;
+  known = dialects::Need(profile, profile.fanuc.b_position, nowhere, sink) && known;
+  if (!profile.fanuc.b_position.Or("").empty())
+    known = dialects::Need(profile, profile.fanuc.b_blocks, nowhere, sink) && known;
+  return known;
+}
+
+void FrameMainPrograms(const RaiseInput& input, Translation& out) {
   Module& module = out.module;
   const dialects::Profile& profile = *input.profile;
-  if (!dialects::Need(profile, profile.words.header, {}, sink)) return false;
-  if (!dialects::Need(profile, profile.words.footer, {}, sink)) return false;
-  std::vector<std::string> head = *profile.words.header;
+  std::vector<std::string> head = Filled(profile, *profile.words.header);
+  const std::vector<std::string> footer = Filled(profile, *profile.words.footer);
   if (head.empty()) {
     head = SafetyLines(input, !out.tools.empty());
   }
-  if (profile.fanuc.variant.Is(dialects::FanucSettings::Variant::kMazak) && profile.IsLathe()) {
-    const SourceRange nowhere{};
-    if (!dialects::Need(profile, profile.fanuc.c_axis, nowhere, sink)) return false;
+  if (IsMazakLathe(profile)) {
     if (*profile.fanuc.c_axis) head.emplace_back("M202");
     const std::string leave = profile.fanuc.leave_mazatrol.Or("");
     if (!leave.empty()) head.push_back(leave);
@@ -120,23 +166,31 @@ bool FrameMainPrograms(const RaiseInput& input, Translation& out, diag::Sink& si
     if (!first.Valid()) continue;
     for (const std::string& line : head) editor.InsertBefore(first, AddedBlock(module, editor, first, line));
     if (end.Valid()) {
-      for (const std::string& line : *profile.words.footer)
-        editor.InsertBefore(end, AddedBlock(module, editor, end, line));
+      for (const std::string& line : footer) editor.InsertBefore(end, AddedBlock(module, editor, end, line));
     }
     editor.Apply();
   }
   if (!head.empty())
     out.added.push_back(
         fmt::format("head of the main program: {} blocks, so that no modal state is taken over", head.size()));
-  if (!profile.words.footer->empty()) out.added.push_back("end of the main program: away from the work, spindle off");
-  return true;
+  if (!footer.empty()) out.added.push_back("end of the main program: away from the work, spindle off");
 }
 
 void FrameToolChanges(const RaiseInput& input, Translation& out) {
-  if (!input.profile->IsLathe()) return;
+  const dialects::Profile& profile = *input.profile;
+  if (!profile.IsLathe()) return;
   Module& module = out.module;
-  const std::vector<std::string> home = input.profile->words.safe_position.Known() ? *input.profile->words.safe_position
-                                                                                   : input.profile->words.home.Or({});
+  const std::vector<std::string> home =
+      Filled(profile, profile.words.safe_position.Known() ? *profile.words.safe_position : profile.words.home.Or({}));
+  std::vector<std::string> behind;
+  if (profile.series.Is(dialects::Series::kM) && !out.tools.empty()) {
+    // M6 cancels offsets and may leave X a radius; B stands where the last tool had it (mazak-lathe-3.2, 4.2, 10.3).
+    if (const std::string diameter = profile.words.diameter_on.Or(""); !diameter.empty()) behind.push_back(diameter);
+    if (!profile.fanuc.b_position.Or("").empty()) {
+      const std::vector<std::string> turn = Filled(profile, *profile.fanuc.b_blocks);
+      behind.insert(behind.end(), turn.begin(), turn.end());
+    }
+  }
   bool any = false;
   for (const ir::ProgramId program : module.programs.Ids()) {
     ProgramEditor editor(module, program, "frame");
@@ -147,9 +201,12 @@ void FrameToolChanges(const RaiseInput& input, Translation& out) {
         for (const std::string& line : home) editor.InsertBefore(id, AddedBlock(module, editor, id, line));
         any = true;
       }
+      for (const std::string& line : behind) editor.InsertAfter(id, AddedBlock(module, editor, id, line));
     }
     editor.Apply();
   }
+  if (!behind.empty())
+    out.added.emplace_back("behind each tool change: X as a diameter, B in the position for turning");
   if (any) out.added.push_back("tool change: away from the work in front of it, work offset again behind it");
 }
 

@@ -388,8 +388,24 @@ void PrintProgram(const ir::Module& module, ir::ProgramId program, const dialect
   Printer printer(module, profile, out);
   std::uint32_t line = 1;
   for (std::size_t i = 0; i < out.size(); ++i) line += out.View()[i] == '\n' ? 1U : 0U;
-  for (const ir::BlockId id : module.programs[program].blocks) {
+  std::uint32_t marked = 0;  // blocks that the last mark announced and that are still to come
+  const IdRange<ir::BlockId> blocks = module.programs[program].blocks;
+  for (const ir::BlockId id : blocks) {
     const Block& block = module.blocks[id];
+    const bool added = (block.flags & Block::kAdded) != 0;
+    if (added && marked == 0) {
+      for (std::uint32_t next = id.value; next < blocks.begin + blocks.count; ++next) {
+        if ((module.blocks[ir::BlockId{next}].flags & Block::kAdded) == 0) break;
+        ++marked;
+      }
+      out.Append('(');
+      out.Append(kAddedMark);
+      AppendInteger(out, marked);
+      out.Append(")\n");
+      if (lines != nullptr) lines->push_back({line, {}, true});
+      ++line;
+    }
+    if (added) --marked;
     printer.PrintBlock(block);
     if (lines != nullptr) lines->push_back({line, id, (block.flags & Block::kAdded) != 0});
     ++line;

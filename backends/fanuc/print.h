@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "base/text_buffer.h"
@@ -18,7 +19,10 @@ struct PrintedLine {
   bool added = false;  // not from the source (Block::kAdded)
 };
 
-/// The blocks of one program, a line each. `lines` (may be null) gets a row for each.
+/// Comment in front of blocks that the translator added, with their number behind it (contracts section 6).
+inline constexpr std::string_view kAddedMark = "NCPORT ADDS BLOCKS: ";
+
+/// The blocks of one program, a line each; added ones have a mark in front. `lines` (may be null) gets a row for each.
 void PrintProgram(const ir::Module& module, ir::ProgramId program, const dialects::Profile& profile, TextBuffer& out,
                   std::vector<PrintedLine>* lines);
 

@@ -13,6 +13,7 @@
 #include "backends/fanuc/mill_tools.h"
 #include "backends/fanuc/raise_words.h"
 #include "backends/fanuc/shifts.h"
+#include "backends/fanuc/turning_offsets.h"
 #include "dialects/fanuc/words.h"
 #include "ir/transform/absolute_dimensions.h"
 #include "ir/transform/lower_expressions.h"
@@ -267,6 +268,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   const ir::Machine& machine = *input.source_machine;
   const ir::ModalState entry = input.config != nullptr ? input.config->entry : ir::ModalState{};
 
+  const bool framed = NeedFrame(input, sink);
   TextsToComments(input, out, sink);
   bool ok = RefuseInputs(input, out, sink);
   ok = SaveToRestores(module, machine, entry, sink) && ok;
@@ -288,6 +290,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   dimensions.diameter_axis = profile.diameter.Is(dialects::DiameterRule::kYes) ? 0 : 0xFF;
   dimensions.sub_entry = entry;
   ok = AbsoluteDimensions(module, machine, dimensions, sink) && ok;
+  ok = NameTurningOffsets(input, out, sink) && ok;
   ok = MapWorkOffsets(input, out, sink) && ok;
   ok = MapAuxiliaries(input, out, sink) && ok;
   DropForeignModes(input, out);
@@ -309,9 +312,11 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   if (!names.ok) return false;
   ok = NamePrograms(input, split, out, sink);
   GuardMacros(input, out);
-  FrameToolChanges(input, out);
-  ok = FrameMainPrograms(input, out, sink) && ok;
-  return CheckLegal(input, out, sink) && ok;
+  if (framed) {
+    FrameToolChanges(input, out);
+    FrameMainPrograms(input, out);
+  }
+  return CheckLegal(input, out, sink) && ok && framed;
 }
 
 }  // namespace ncport::backends::fanuc

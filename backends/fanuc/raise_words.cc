@@ -20,6 +20,7 @@ namespace ncport::backends::fanuc {
 
 namespace {
 
+using LengthWord = dialects::FanucSettings::LengthWord;
 using ir::Block;
 using ir::BlockId;
 using ir::ExprId;
@@ -90,6 +91,21 @@ std::uint32_t NumberBehind(std::string_view words, char letter, std::size_t* dig
   return 0;
 }
 
+bool HasWord(std::string_view words, std::string_view word) {
+  for (std::size_t at = words.find(word); at != std::string_view::npos; at = words.find(word, at + 1)) {
+    const std::size_t end = at + word.size();
+    if ((at == 0 || words[at - 1] == ' ') && (end == words.size() || words[end] == ' ')) return true;
+  }
+  return false;
+}
+
+/// "shop/integrex.toml" -> "integrex", as ncport.toml names machines.
+std::string_view ShortName(std::string_view profile) {
+  if (const std::size_t slash = profile.rfind('/'); slash != std::string_view::npos) profile.remove_prefix(slash + 1);
+  if (profile.ends_with(".toml")) profile.remove_suffix(5);
+  return profile;
+}
+
 }  // namespace
 
 void TextsToComments(const RaiseInput&, Translation& out, diag::Sink& sink) {
@@ -156,6 +172,10 @@ void TextsToComments(const RaiseInput&, Translation& out, diag::Sink& sink) {
 bool MapTools(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   Module& module = out.module;
   const bool lathe = input.profile->IsLathe();
+  // Series M: T makes ready, M6 changes (mazak-lathe-4.2). `T0101` would be tool 101, and never come in.
+  const bool changes_by_m6 = lathe && input.profile->series.Is(dialects::Series::kM);
+  const bool own_offset = changes_by_m6 && input.profile->fanuc.length_word.Is(LengthWord::kG43P1);
+  const std::string_view example = changes_by_m6 ? "T01.01 M6" : lathe ? "T0101" : "T1 M6 H1 D1";
   bool ok = true;
   for (const ir::ProgramId program : module.programs.Ids()) {
     ProgramEditor editor(module, program, "map_tools");
@@ -223,11 +243,24 @@ bool MapTools(const RaiseInput& input, Translation& out, diag::Sink& sink) {
         auto& finding = sink.Report(diag::Code::kUnmappedTool, range, use.source_words);
         const std::string quote = use.source_words.find('"') == std::string::npos ? "\"" : "'";
         finding.help = fmt::format("add to ncport.toml, with the words of your machine:  [tools]  {0}{1}{0} = \"{2}\"",
-                                   quote, use.source_words, lathe ? "T0101" : "T1 M6 H1 D1");
+                                   quote, use.source_words, example);
         ok = false;
         continue;
       }
       use.target_words = mapping->target;
+      if (changes_by_m6 && !HasWord(use.target_words, "M6")) {
+        sink.Report(
+                diag::Code::kNotExpressible, range,
+                fmt::format("{} as \"{}\", words without M6 that change no tool,", use.source_words, use.target_words),
+                input.profile->name)
+            .help = fmt::format(
+            "write the words of this machine in [tools] of ncport.toml, for example \"{}\"; a "
+            "folder with several targets names each by its profile: {{ {} = \"{}\" }}",
+            example, ShortName(input.profile->name), example);
+        ok = false;
+        continue;
+      }
+      out.tool_change_added = out.tool_change_added || (changes_by_m6 && !change);
       std::size_t digits = 0;
       const std::uint32_t number = NumberBehind(use.target_words, 'T', &digits);
       if (lathe && use.target_words.find('.') == std::string::npos && digits >= 3) {
@@ -235,7 +268,7 @@ bool MapTools(const RaiseInput& input, Translation& out, diag::Sink& sink) {
         use.target_offset = digits > 4 ? number % 1000 : number % 100;
       } else {
         use.target_tool = number;
-        use.target_offset = NumberBehind(use.target_words, 'H');
+        use.target_offset = own_offset ? number : NumberBehind(use.target_words, 'H');
       }
       const auto known = std::find_if(out.tools.begin(), out.tools.end(),
                                       [&](const ToolUse& other) { return other.source_words == use.source_words; });

@@ -30,6 +30,10 @@ struct SystemRange {
   std::string_view rule;
 };
 
+/// Numbers that words of programs stand for.
+inline constexpr std::uint32_t kToolDataIndex = 3020;  // Mazak: place of the active tool in the tool data (fanuc-9.8)
+inline constexpr std::uint32_t kActiveTool = 4120;
+
 /// All ranges. Those of one maker and machine do not overlap.
 std::span<const SystemRange> SystemVariables();
 /// The range that holds `number` on this machine, or null: there is no such variable (PS0115).

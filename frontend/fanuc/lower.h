@@ -57,7 +57,8 @@ class Lowering {
     bool dwell = false, data = false, frame = false, rotation = false, scaling = false, preset = false;
     bool extended_offset = false, subprogram = false, local_call = false, returns = false, quiet = false;
     bool reference = false, arc = false, thread = false, spindle = false, offset = false, diameter_switch = false;
-    bool length_switch = false;  // G43, G44
+    bool length_switch = false;   // G43, G44
+    bool turning_offset = false;  // G43 P1 of a multi-tasking machine
     const dialects::fanuc::CycleRow* cycle = nullptr;
     bool cycle_block_numbers = false;  // a repetitive cycle with P and Q: its second block
     const Pending* subprogram_word = nullptr;
@@ -103,6 +104,7 @@ class Lowering {
   bool AddLetter(const Pending& pending, const Context& context, const dialects::fanuc::AddressRow& row);
   bool AddTool(const Pending& pending);
   bool AddFeed(const Pending& pending);
+  bool AddTurningOffset(const Pending& pending);
   bool AddOption(const Pending& pending);
   bool AddCycleWord(const Pending& pending, const Context& context, bool& done);
   bool Meaningless(const Pending& pending);

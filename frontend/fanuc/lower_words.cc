@@ -263,6 +263,10 @@ bool Lowering::Scan(Context& context) {
     }
   }
   context.cycle_block_numbers = FindLetter('P') != nullptr && FindLetter('Q') != nullptr;
+  // G43 P1: the offset of a turning tool, in all its axes (mazak-lathe-4.3).
+  const Pending* kind = FindLetter('P');
+  context.turning_offset = system_ == words::System::kMazakM && context.length_switch && kind != nullptr &&
+                           IsLiteral(*kind) && NumberOf(*kind) == 1;
   // R names the spindle beside speeds (mazak-lathe-5.2).
   const Pending* spindle = FindLetter('R');
   if (mazak_lathe && spindle != nullptr && (context.spindle || context.preset) && IsLiteral(*spindle) &&
@@ -343,6 +347,7 @@ bool Lowering::AddCode(const Pending& pending, const Context& context) {
     return true;
   }
   const dialects::CodeRow& row = meaning.code != nullptr ? *meaning.code : words::AuxiliaryCode();
+  if (row.op == WordOp::kLengthOffset && context.turning_offset) return AddTurningOffset(pending);
   ExprId value;
   if (row.op == WordOp::kAux) {
     value = Literal(token);
@@ -547,6 +552,29 @@ bool Lowering::AddTool(const Pending& pending) {
   return true;
 }
 
+// `G43 P1 Z50. H#3020`: #3020 is the place of the active tool in the tool data, so the offset is that tool's own; a
+// number names an offset (mazak-lathe-4.3). That H may be left out hangs on a parameter (F93.3): not read.
+bool Lowering::AddTurningOffset(const Pending& pending) {
+  const Pending* number = FindLetter('H');
+  if (number == nullptr) return Fail(Code::kMissingValue, pending, "write H#3020, or H and the number of the offset");
+  std::uint8_t flags = 0;
+  ExprId value = ValueOf(*number, flags);
+  const ir::Expr& given = module_.exprs[value];
+  if (given.op == ir::ExprOp::kSystem && module_.systems[ir::SystemId{given.a}].number == words::kToolDataIndex) {
+    const words::SystemRange* active = words::FindSystemVariable(profile_, words::kActiveTool);
+    NCPORT_CHECK(active != nullptr, "no row for the active tool");
+    value = List(ir::ExprOp::kSystem, SystemOf(words::kActiveTool, *active).value, {}, active->type, 0);
+  } else if (IsLiteral(*number) && !Whole(*number)) {
+    return false;
+  }
+  Word& word = AddWord(WordOp::kToolOffset, pending);
+  word.value = value;
+  word.flags |= flags;
+  word.phase = ir::DefaultPhaseOf(WordOp::kToolOffset);
+  word.spelling = SpellingOf("G43", "mazak-lathe-4.3");
+  return true;
+}
+
 bool Lowering::AddLetter(const Pending& pending, const Context& context, const words::AddressRow& row) {
   const auto inert = [&] {
     Word& word = AddWord(WordOp::kInert, pending);
@@ -641,7 +669,7 @@ bool Lowering::AddLetter(const Pending& pending, const Context& context, const w
       if (context.quiet) return inert();
       return field(ir::CycleField::kRepeats, false);
     case 'H':
-      if (context.subprogram) return true;
+      if (context.subprogram || context.turning_offset) return true;
       break;
     case 'E':
     case 'D':

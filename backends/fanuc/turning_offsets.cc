@@ -1,0 +1,258 @@
+#include "backends/fanuc/turning_offsets.h"
+
+#include <algorithm>
+#include <map>
+#include <string_view>
+#include <vector>
+
+#include "ir/analysis/call_graph.h"
+#include "ir/analysis/cfg.h"
+#include "ir/analysis/modal_state.h"
+#include "ir/builder.h"
+#include "ir/transform/program_editor.h"
+
+namespace ncport::backends::fanuc {
+
+namespace {
+
+using ir::Block;
+using ir::BlockId;
+using ir::Module;
+using ir::ProgramId;
+using ir::Word;
+using ir::WordId;
+using ir::WordOp;
+using ir::transform::ProgramEditor;
+
+constexpr std::uint8_t kZ = 2;
+
+/// Whether the offset of the tool is named on arrival at a block: one answer for every way, or kMixed.
+enum class Offset : std::uint8_t { kNever /* no way leads here */, kOpen, kNamed, kMixed };
+
+Offset Join(Offset a, Offset b) {
+  if (a == Offset::kNever || a == b) return b;
+  return b == Offset::kNever ? a : Offset::kMixed;
+}
+
+class Pass {
+ public:
+  Pass(const RaiseInput& input, Translation& out, diag::Sink& sink)
+      : input_(input),
+        out_(out),
+        sink_(sink),
+        module_(out.module),
+        graphs_(out.module),
+        calls_(out.module),
+        flow_(out.module, *input.source_machine, graphs_, calls_,
+              {input.source_machine->start, input.config != nullptr ? input.config->entry : ir::ModalState{}}),
+        has_y_(std::find(input.profile->axes.begin(), input.profile->axes.end(), "Y") != input.profile->axes.end()) {}
+
+  bool Run() {
+    Flow();
+    for (const ProgramId program : module_.programs.Ids()) Rewrite(program);
+    return ok_;
+  }
+
+ private:
+  struct Words {
+    bool tool = false, moves = false, moves_z = false, conditional = false;
+    std::vector<ProgramId> callees;
+  };
+  [[nodiscard]] Words Look(const Block& block) const;
+  [[nodiscard]] Offset Through(const Words& words, Offset before) const;
+  void Flow();
+  void Rewrite(ProgramId program);
+  void Refuse(const Block& block, std::string_view what, std::string_view help) {
+    ok_ = false;
+    sink_.Report(diag::Code::kNotExpressible, module_.RangeOf(block), what, input_.profile->name).help = help;
+  }
+  [[nodiscard]] Word Text(std::string_view text) {
+    Word word;
+    word.op = WordOp::kInert;
+    word.phase = ir::DefaultPhaseOf(WordOp::kInert);
+    word.spelling = ir::AddSpelling(module_, text, "");
+    return word;
+  }
+
+  const RaiseInput& input_;
+  Translation& out_;
+  diag::Sink& sink_;
+  Module& module_;
+  ir::analysis::FlowGraphs graphs_;
+  ir::analysis::CallGraph calls_;
+  ir::analysis::ModalFlow flow_;
+  bool has_y_ = false;
+  std::map<BlockId, Offset> before_;
+  std::vector<Offset> entry_, exit_;
+  bool ok_ = true;
+};
+
+Pass::Words Pass::Look(const Block& block) const {
+  Words words;
+  words.conditional = block.skip_level != Block::kNoSkip;
+  bool elsewhere = false;
+  for (const WordId id : block.words) {
+    const Word& word = module_.words[id];
+    switch (word.op) {
+      case WordOp::kInert: {
+        if (word.spelling == 0) break;
+        const std::string_view text = module_.View(module_.spellings[word.spelling].text);
+        words.tool = words.tool || std::any_of(out_.tools.begin(), out_.tools.end(),
+                                               [&](const ToolUse& use) { return use.target_words == text; });
+        break;
+      }
+      case WordOp::kAxis:
+        words.moves = true;
+        words.moves_z = words.moves_z || word.index == kZ;
+        break;
+      case WordOp::kWhen:
+      case WordOp::kSkipRest:
+        words.conditional = true;
+        break;
+      case WordOp::kFrame:
+      case WordOp::kReference:
+      case WordOp::kPresetPosition:
+      case WordOp::kMachineCoords:
+        elsewhere = true;
+        break;
+      case WordOp::kCall:
+      case WordOp::kModalCall: {
+        const auto call = word.Extra<ir::CallId>();
+        if (call.Valid() && module_.calls[call].program.Valid()) words.callees.push_back(module_.calls[call].program);
+        break;
+      }
+      default:
+        break;
+    }
+  }
+  if (elsewhere) words.moves = words.moves_z = false;
+  return words;
+}
+
+Offset Pass::Through(const Words& words, Offset before) const {
+  Offset state = before;
+  if (words.tool) state = Offset::kOpen;
+  if (words.moves_z) state = Offset::kNamed;
+  for (const ProgramId callee : words.callees) state = exit_[callee.value];
+  return words.conditional ? Join(before, state) : state;
+}
+
+void Pass::Flow() {
+  entry_.assign(module_.programs.Size(), Offset::kNever);
+  exit_.assign(module_.programs.Size(), Offset::kNever);
+  std::vector<bool> called(module_.programs.Size(), false);
+  for (const ir::analysis::CallSite& site : calls_.AllSites()) {
+    if (site.callee.Valid()) called[site.callee.value] = true;
+  }
+  // A program without a tool call works with the offset that is in force: it has nothing to name.
+  for (const ProgramId program : module_.programs.Ids()) {
+    if (!called[program.value] || module_.programs[program].kind == ir::ProgramKind::kMain)
+      entry_[program.value] = Offset::kNamed;
+  }
+  // Each state only climbs never -> one -> mixed, so this ends.
+  for (bool changed = true; changed;) {
+    changed = false;
+    const auto merge = [&](Offset& into, Offset from) {
+      const Offset joined = Join(into, from);
+      if (joined == into) return;
+      into = joined;
+      changed = true;
+    };
+    for (const ProgramId program : module_.programs.Ids()) {
+      const IdRange<BlockId> blocks = module_.programs[program].blocks;
+      if (blocks.Empty()) {
+        merge(exit_[program.value], entry_[program.value]);
+        continue;
+      }
+      const ir::analysis::Cfg& graph = graphs_.Of(program);
+      merge(before_[blocks[0]], entry_[program.value]);
+      for (const BlockId id : blocks) {
+        const Offset before = before_[id];
+        if (before == Offset::kNever) continue;
+        const Words words = Look(module_.blocks[id]);
+        for (const ProgramId callee : words.callees) merge(entry_[callee.value], words.tool ? Offset::kOpen : before);
+        const Offset after = Through(words, before);
+        if (after == Offset::kNever) continue;  // the callee has not come to its end yet
+        for (const ir::analysis::Edge& edge : graph.Successors(id)) {
+          if (edge.to.Valid()) {
+            merge(before_[edge.to], after);
+          } else if (edge.kind == ir::analysis::EdgeKind::kComputed) {
+            for (const BlockId target : graph.ComputedTargets()) merge(before_[target], after);
+          } else if (edge.kind != ir::analysis::EdgeKind::kAlarm && edge.kind != ir::analysis::EdgeKind::kMissing) {
+            merge(exit_[program.value], after);
+          }
+        }
+      }
+    }
+  }
+}
+
+void Pass::Rewrite(ProgramId program) {
+  ProgramEditor editor(module_, program, "turning_offsets");
+  for (const BlockId id : module_.programs[program].blocks) {
+    const Block block = module_.blocks[id];
+    const Words words = Look(block);
+    const auto arrival = before_.find(id);
+    const Offset before = arrival == before_.end() ? Offset::kNever : arrival->second;
+    if (!words.moves || before == Offset::kNever || before == Offset::kNamed) continue;
+    const bool rapid = flow_.At(program, id).motion == ir::Motion::kRapid;
+    if (before == Offset::kMixed) {
+      if (words.moves_z)
+        Refuse(block, "a move of Z that a tool change may lie before, or not: its offset would be named on every way",
+               "move Z at rapid behind each tool change before the ways meet");
+      continue;
+    }
+    if (!rapid) {
+      Refuse(block, "a move under feed before the tool offset is named",
+             "the first move of X and Z behind a tool change must be a rapid");
+      continue;
+    }
+    if (!words.moves_z) continue;
+    if (words.conditional) {
+      Refuse(block, "a first move behind a tool change in a block that may be skipped", "");
+      continue;
+    }
+    std::vector<Word> first, second;
+    bool other_axis = false;
+    for (const WordId word_id : block.words) {
+      const Word word = module_.words[word_id];
+      const bool z = word.op == WordOp::kAxis && word.index == kZ;
+      other_axis = other_axis || (word.op == WordOp::kAxis && !z);
+      (z ? second : first).push_back(word);
+    }
+    second.insert(second.begin(), Text("G43 P1"));
+    second.push_back(Text("H#3020"));
+    if (!other_axis) {
+      // Z alone: Y is named with it, for its offset comes in here too.
+      if (has_y_) second.insert(second.begin() + 1, Text("Y0."));
+      first.insert(first.end(), second.begin(), second.end());
+    } else if (has_y_) {
+      first.push_back(Text("Y0."));
+    }
+    Block changed = block;
+    editor.SetWords(changed, first);
+    module_.blocks[id].words = changed.words;
+    if (!other_axis) continue;
+    Block made = editor.MakeBlock(id);
+    editor.SetWords(made, second);
+    editor.InsertAfter(id, made);
+    const ir::Origin& origin = module_.origins[block.origin];
+    out_.split_rapids.push_back({origin.file, origin.line});
+  }
+  editor.Apply();
+}
+
+}  // namespace
+
+bool NameTurningOffsets(const RaiseInput& input, Translation& out, diag::Sink& sink) {
+  const auto& word = input.profile->fanuc.length_word;
+  if (!input.profile->IsLathe() || !word.Is(dialects::FanucSettings::LengthWord::kG43P1)) return true;
+  const std::size_t before = out.split_rapids.size();
+  const bool ok = Pass(input, out, sink).Run();
+  if (out.split_rapids.size() != before)
+    out.added.emplace_back(
+        "first rapid behind a tool change: X, then Z with the tool offset (G43 P1): come from outside only");
+  return ok;
+}
+
+}  // namespace ncport::backends::fanuc

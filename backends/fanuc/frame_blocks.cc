@@ -58,6 +58,15 @@ bool IsTool(const Module& module, const Translation& out, BlockId id) {
   return false;
 }
 
+bool HasWord(std::string_view line, std::string_view word) {
+  if (word.empty()) return false;
+  for (std::size_t at = line.find(word); at != std::string_view::npos; at = line.find(word, at + 1)) {
+    const std::size_t end = at + word.size();
+    if ((at == 0 || line[at - 1] == ' ') && (end == line.size() || line[end] == ' ')) return true;
+  }
+  return false;
+}
+
 /// Lines of the profile with its own values in their holes, without words of axes that the machine does not have.
 /// NeedFrame has seen to it that the values are known.
 std::vector<std::string> Filled(const dialects::Profile& profile, const std::vector<std::string>& lines) {
@@ -147,11 +156,25 @@ void FrameMainPrograms(const RaiseInput& input, Translation& out) {
   if (head.empty()) {
     head = SafetyLines(input, !out.tools.empty());
   }
+  // The feed mode that the source starts with, where the head ends in another one (mazak-lathe-10.3: G94 for the way
+  // out, then G95).
+  const ir::FeedMode feed = input.source_machine->start.feed_mode;
+  const std::string minute = profile.words.feed_per_minute.Or("");
+  const std::string revolution = profile.words.feed_per_revolution.Or("");
+  const bool by_minute = feed == ir::FeedMode::kPerMinute;
+  std::string feed_word;
+  if (by_minute || feed == ir::FeedMode::kPerRevolution) {
+    const std::string& other = by_minute ? revolution : minute;
+    const bool differs =
+        std::any_of(head.begin(), head.end(), [&](const std::string& line) { return HasWord(line, other); });
+    if (differs) feed_word = by_minute ? minute : revolution;
+  }
   if (IsMazakLathe(profile)) {
     if (*profile.fanuc.c_axis) head.emplace_back("M202");
     const std::string leave = profile.fanuc.leave_mazatrol.Or("");
     if (!leave.empty()) head.push_back(leave);
   }
+  if (!feed_word.empty()) head.push_back(feed_word);
   for (const ir::ProgramId program : module.programs.Ids()) {
     if (module.programs[program].kind != ir::ProgramKind::kMain) continue;
     ProgramEditor editor(module, program, "frame");

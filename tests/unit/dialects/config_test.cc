@@ -39,6 +39,23 @@ struct Reading {
   Result<Config> result = Failure{};
 };
 
+TEST_CASE("words of several machines stand in one file, by the name of their profile") {
+  const Reading reading(R"([tools]
+"T1 D1" = { qtn = "T0101", integrex = "T01.01 M6" }
+"T2 D1" = "T0202"
+)");
+  REQUIRE(reading.result.Ok());
+  const Config& config = *reading.result;
+  CHECK(config.For("shop/qtn.toml").FindTool("T1 D1")->target == "T0101");
+  CHECK(config.For("integrex.toml").FindTool("T1 D1")->target == "T01.01 M6");
+  CHECK(config.For("mazak-integrex-new").FindTool("T1 D1")->target == "T01.01 M6");
+  CHECK(config.For("mazak-qtn").FindTool("T2 D1")->target == "T0202");
+  CHECK(config.For("fanuc-lathe-a").FindTool("T1 D1") == nullptr);
+  CHECK(config.For("qtn2.toml").FindTool("T1 D1") == nullptr);
+  CHECK(Reading("[tools]\nT1 = { qtn = 5 }\n").First() ==
+        "2 NC2102 tools.T1.qtn is number 5 where a text, words of that machine, is needed");
+}
+
 TEST_CASE("every table of the contract is read") {
   const Reading reading(R"(from = "sinumerik-840d-lathe"
 to = "mazak-qtn"

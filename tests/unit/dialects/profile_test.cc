@@ -168,7 +168,7 @@ TEST_CASE("ask opens a key again and names the line to add") {
   CHECK(Need(profile, profile.increment, {}, sink));
   REQUIRE(sink.All().size() == 1);
   CHECK(sink.All()[0].code == diag::Code::kOpenKey);
-  CHECK(sink.All()[0].help.find("point = increment | calculator") != std::string::npos);
+  CHECK(sink.All()[0].help.find("point = \"increment\" | \"calculator\"") != std::string::npos);
 }
 
 TEST_CASE("every key asks under its own path") {

@@ -265,6 +265,32 @@ TEST_CASE("alarms agree by class across languages and by their first word within
   CHECK_FALSE(Agree(a, b, options));
 }
 
+TEST_CASE("a piece of a split rapid that leaves an axis unknown is not its end") {
+  CompareOptions options;
+  options.maps.split_rapids.push_back(0);
+  Trace a, b;
+  Event whole;
+  whole.kind = EventKind::kRapid;
+  whole.known_axes = whole.moved_axes = kX | kZ;
+  whole.position[0] = 25;
+  whole.position[2] = 50;
+  whole.block = ir::BlockId{0U};
+  a.Put(whole).Line(20, 50, 0.2).End();
+  Event piece = whole;
+  piece.known_axes = piece.moved_axes = kX;
+  b.Put(piece).Put(whole).Line(20, 50, 0.2).End();
+  CHECK(Agree(a, b, options));
+}
+
+TEST_CASE("a work offset that the head of the target selected is no event again, another one is a difference") {
+  for (const std::uint32_t number : {54U, 55U}) {
+    Trace a, b;
+    a.Number(EventKind::kWorkOffset, 54).Rapid(1, 1).End();
+    b.Added().Number(EventKind::kWorkOffset, number).Rapid(1, 1).End();
+    CHECK(Agree(a, b) == (number == 54));
+  }
+}
+
 TEST_CASE("a split rapid ends where the rapid does") {
   CompareOptions options;
   options.maps.split_rapids.push_back(0);

@@ -51,9 +51,21 @@ struct Ignore {
 /// All ignores by (file, line). A comment line silences the block below it, a comment in a block its own.
 using Ignores = std::multimap<std::pair<std::uint32_t, std::uint32_t>, Ignore>;
 
-void AddCodes(std::string_view text, const SourceRange& comment, const SourceRange& silenced, Ignores& ignores) {
-  std::size_t at = text.find(kIgnoreMark);
+/// Where the mark begins in `text`, in any case: some controls have capital letters only. npos: nowhere.
+std::size_t FindMark(std::string_view text) {
+  const auto same = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b; };
+  const auto found = std::search(text.begin(), text.end(), kIgnoreMark.begin(), kIgnoreMark.end(), same);
+  return found == text.end() ? std::string_view::npos : static_cast<std::size_t>(found - text.begin());
+}
+
+void AddCodes(std::string_view text, SourceRange comment, std::string_view line, const SourceRange& silenced,
+              Ignores& ignores) {
+  const std::size_t at = FindMark(text);
   if (at == std::string_view::npos) return;
+  if (const std::size_t begin = FindMark(line); begin != std::string_view::npos) {
+    comment.begin = static_cast<std::uint32_t>(begin);
+    comment.end = static_cast<std::uint32_t>(begin + kIgnoreMark.size());
+  }
   std::string_view rest = text.substr(at + kIgnoreMark.size());
   while (!rest.empty()) {
     const std::size_t begin = rest.find_first_not_of(" ,)");
@@ -83,10 +95,10 @@ Ignores CollectIgnores(const SourceFiles& files, const ir::Module& module) {
         }
       }
       for (const ir::CommentId comment : block.comments)
-        AddCodes(module.View(module.comments[comment].text), own, silenced, ignores);
+        AddCodes(module.View(module.comments[comment].text), own, files.Line(own.file, own.line), silenced, ignores);
       // The comment of a block that was not understood may still be part of its text.
       if ((block.flags & ir::Block::kRefused) != 0 && block.comments.Empty())
-        AddCodes(files.Line(own.file, own.line), own, own, ignores);
+        AddCodes(files.Line(own.file, own.line), own, files.Line(own.file, own.line), own, ignores);
     }
   }
   return ignores;

@@ -14,6 +14,8 @@ void CheckPrograms(const Subject& subject, diag::Sink& sink);
 
 /// NC4001: a jump, a switch or a repeated part names a label that its search does not find.
 void CheckLabels(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
+/// NC2006: labels and program names that are longer than the control reads.
+void CheckNameLengths(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
 /// NC2003: a jump names a label or block number that stands twice where it looks; the control takes one of them.
 void CheckDoubleLabels(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
 /// NC2007: a label that nothing names. Silent where a jump is computed.

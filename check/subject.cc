@@ -64,6 +64,16 @@ SourceRange Subject::PlaceOf(const ir::Variable& variable) const {
   return {variable.file, variable.line, variable.begin, variable.begin + variable.length};
 }
 
+SourceRange Subject::PlaceOfLabel(ir::BlockId id) const {
+  const ir::Block& block = module.blocks[id];
+  SourceRange place = module.RangeOf(block);
+  if (block.number == ir::Block::kNoNumber && block.skip_level == ir::Block::kNoSkip) {
+    place.begin = block.indent;
+    place.end = block.indent + static_cast<std::uint32_t>(module.View(block.label).size());
+  }
+  return place;
+}
+
 std::string Subject::KeyOf(std::string_view name) const {
   std::string key(name);
   if (!ignore_case) return key;

@@ -30,6 +30,8 @@ struct Subject {
   [[nodiscard]] SourceRange PlaceOf(ir::BlockId block) const;
   [[nodiscard]] SourceRange PlaceOf(ir::BlockId block, const ir::Word& word) const;
   [[nodiscard]] SourceRange PlaceOf(const ir::Variable& variable) const;
+  /// The label of the block; the line as a whole where a number or a skip mark stands in front of it.
+  [[nodiscard]] SourceRange PlaceOfLabel(ir::BlockId block) const;
 
   /// The name as names compare: upper case where case does not count.
   [[nodiscard]] std::string KeyOf(std::string_view name) const;

@@ -70,12 +70,7 @@ void CheckUnusedLabels(const Subject& subject, ir::ProgramId program, diag::Sink
     if (!block.label.Valid()) continue;
     const std::string_view label = module.View(block.label);
     if (named.Has(label) || subject.InRefusedBlock(program, label)) continue;
-    SourceRange place = module.RangeOf(block);
-    if (block.number == ir::Block::kNoNumber && block.skip_level == ir::Block::kNoSkip) {
-      place.begin = block.indent;
-      place.end = block.indent + static_cast<std::uint32_t>(label.size());
-    }
-    sink.Report(diag::Code::kUnusedName, place, "label", label).help = "no jump goes there";
+    sink.Report(diag::Code::kUnusedName, subject.PlaceOfLabel(id), "label", label).help = "no jump goes there";
   }
 }
 

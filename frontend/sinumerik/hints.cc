@@ -50,8 +50,8 @@ class Hints {
 
   void Run() {
     // Each looks for one kind of slip; the first that fits has the word.
-    (void)(TornNumber() || MissingType() || Comparison() || NoFunction() || NoBrackets() || Closer() || Gap() ||
-           MissingValue() || ForeignName() || Statement() || CommentMark());
+    (void)(TornNumber() || TornName() || MissingType() || Comparison() || NoFunction() || NoBrackets() || Closer() ||
+           Gap() || MissingValue() || ForeignName() || Statement() || CommentMark());
     if (!help_.empty()) error_.help = help_.c_str();
   }
 
@@ -117,6 +117,14 @@ class Hints {
     if (before.End() != tokens_[at_].offset || !IsValue(Before())) return false;
     error_ = {.code = Code::kBadNumber, .begin = before.offset, .length = tokens_[at_].End() - before.offset};
     return Say("a number has one decimal point");
+  }
+
+  // `DEF INT A-B`, `DEF INT A B`: signs inside a name, or a comma that is missing.
+  bool TornName() {
+    const K first = KindAt(First());
+    if (first != K::kDef || Before() != K::kName || Holds(K::kEquals) || at_ >= tokens_.size()) return false;
+    if (IsOperator(Kind())) return Say("a name holds letters, digits and _");
+    return StartsValue(Kind()) && Kind() != K::kLeftParen && Say("a comma stands between two names");
   }
 
   // `DEF INTEGER A`, `PROC P(A)`: a name where the type stands.

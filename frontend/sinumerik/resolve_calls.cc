@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <string>
 
+#include "base/near_name.h"
 #include "dialects/sinumerik/library.h"
 #include "dialects/sinumerik/words.h"
 #include "frontend/common/chars.h"
@@ -71,8 +72,7 @@ bool Resolver::Call(ir::Word& word) {
     if (!call.program.Valid() && !DeclaredArguments(call, word)) return false;
     if (!call.program.Valid() && missing_programs_.insert(std::string(module_.View(call.name))).second) {
       // The block stays: a run that gets there ends in the alarm of the control.
-      sink_.Report(Code::kUnknownProgram, module_.RangeOf(module_.blocks[block_], word), module_.View(call.name)).help =
-          "give its file too, or name its folder with -I";
+      UnknownProgram(module_.View(call.name), module_.RangeOf(module_.blocks[block_], word));
     }
   }
   const bool in_own_program = !call.program.Valid() && !call.name_expr.Valid();
@@ -110,6 +110,22 @@ bool Resolver::Arguments(const ir::Call& call, const ir::Word& word) {
     }
   }
   return !program.library || CycleLimits(call);
+}
+
+void Resolver::UnknownProgram(std::string_view name, const SourceRange& at) {
+  diag::Diagnostic& finding = sink_.Report(Code::kUnknownProgram, at, name);
+  if (dialects::sinumerik::IsReserved(UpperOf(name))) {
+    finding.help = "a cycle of the control that ncport does not know; what it does is not looked at";
+    return;
+  }
+  std::vector<std::string_view> known;
+  for (const ir::Program& program : module_.programs.All()) {
+    if (!program.library) known.push_back(module_.View(program.name));
+  }
+  for (const std::string_view cycle : dialects::sinumerik::LibraryCycleNames()) known.push_back(cycle);
+  const std::string_view near = NearName(name, known);
+  finding.help =
+      near.empty() ? "give its file too, or name its folder with -I" : "did you mean " + std::string(near) + "?";
 }
 
 // The EXTERN of a program that is not here says what it takes.

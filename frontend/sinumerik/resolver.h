@@ -46,6 +46,7 @@ class Resolver {
   // Calls (resolve_calls.cc).
   bool Call(ir::Word& word);
   bool Arguments(const ir::Call& call, const ir::Word& word);
+  void UnknownProgram(std::string_view name, const SourceRange& at);
   bool DeclaredArguments(const ir::Call& call, const ir::Word& word);
   bool Argument(ir::Arg& arg, ir::VariableId parameter);
   bool CycleLimits(const ir::Call& call);

@@ -47,6 +47,19 @@ TEST_CASE("jumps that find nothing") {
   CHECK(Macro("O1\nN10 IF [#1 GT 1] GOTO 10\nM30\n").empty());
 }
 
+TEST_CASE("names that are too long") {
+  const std::string label(33, 'A');
+  const std::string program = "PROC " + std::string(25, 'P') + "\n";
+  CHECK(Mill(label + ": G0 X1\nIF R1>1 GOTOB " + label + "\nM30\n") == "NC2006 1");
+  CHECK(Mill("N10 " + label + ": G0 X1\nIF R1>1 GOTOB " + label + "\nM30\n") == "NC2006 1");
+  CHECK(Sub(program + "G0 X1\nM17\n") == "NC2006 1");
+  const std::string fits(32, 'A');
+  CHECK(Mill(fits + ": G0 X1\nIF R1>1 GOTOB " + fits + "\nM30\n").empty());
+  CHECK(Sub("PROC " + std::string(24, 'P') + "\nG0 X1\nM17\n").empty());
+  CHECK(Findings("sinumerik-802s-mill", "main.mpf", "LABEL_123: G0 X1\nIF R1>1 GOTOB LABEL_123\nM2\n").empty());
+  CHECK(Findings("sinumerik-840d-mill", "a_file_with_a_name_of_many_characters.mpf", "G0 X1\nM30\n").empty());
+}
+
 TEST_CASE("jumps to labels that stand twice") {
   CHECK(Mill("IF R1>1 GOTOF AB\nAB: G0 X1\nAB: G0 X2\nM30\n") == "NC2003 1");
   CHECK(Mill("N10 G0 X1\nN10 G0 X2\nIF R1>1 GOTOB N10\nM30\n") == "NC2003 3");

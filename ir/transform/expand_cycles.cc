@@ -67,8 +67,11 @@ class Pass {
     bool any = false;
     for (const ProgramId program : module_.programs.Ids()) any = UsesHoles(program) || any;
     if (!any) return true;
+    for (const analysis::CallSite& site : calls_.AllSites()) {
+      if (site.callee.Valid()) called_.insert(site.callee.value);
+    }
     for (const ProgramId program : module_.programs.Ids()) {
-      if (UsesHoles(program)) Expand(program);
+      if (!module_.programs[program].blocks.Empty()) Expand(program);
     }
     return ok_;
   }
@@ -225,7 +228,8 @@ class Pass {
     };
     State start;
     start.reached = true;
-    if (module_.programs[program].kind != ProgramKind::kMain) start.cycle = kOpen;
+    // Calls under a cycle are refused, so a called program begins without one.
+    if (module_.programs[program].kind != ProgramKind::kMain && !called_.contains(program.value)) start.cycle = kOpen;
     arrive(blocks[0], start);
     while (!work.empty()) {
       const BlockId id = work.front();
@@ -237,6 +241,9 @@ class Pass {
             nullptr);
       if (module_.blocks[id].skip_level != Block::kNoSkip) Join(state, before);
       for (const analysis::Edge& edge : cfg.Successors(id)) {
+        const bool leaves =
+            edge.kind == analysis::EdgeKind::kReturn || edge.kind == analysis::EdgeKind::kReturnToTarget;
+        if (leaves && called_.contains(program.value) && state.cycle != kNoCycle) outlives_.insert(id.value);
         if (edge.kind == analysis::EdgeKind::kComputed) {
           for (const BlockId target : cfg.ComputedTargets()) arrive(target, state);
         } else if (edge.to.Valid()) {
@@ -244,6 +251,9 @@ class Pass {
         }
       }
     }
+    for (const std::uint32_t id : outlives_)
+      Refuse(module_.blocks[BlockId{std::size_t{id}}], "a return while a drilling cycle is in force");
+    outlives_.clear();
     ProgramEditor editor(module_, program, "expand_cycles");
     for (const BlockId id : blocks) {
       const auto found = states.find(id.value);
@@ -520,6 +530,8 @@ class Pass {
   analysis::FlowGraphs graphs_;
   analysis::CallGraph calls_;
   analysis::ModalFlow flow_;
+  std::set<std::uint32_t> called_;    // programs
+  std::set<std::uint32_t> outlives_;  // blocks that return under a cycle
   ProgramId program_;
   ExprId locals_[kFields];
   ExprId initial_;

@@ -28,7 +28,8 @@ using ir::transform::ProgramEditor;
 
 /// What the programs use at all: words that only switch it off are not carried over when nothing does.
 struct Uses {
-  bool cycles = false, polar = false, length = false, rotation = false, scaling = false, mirror = false;
+  bool cycles = false, modal_calls = false, polar = false, length = false, rotation = false, scaling = false,
+       mirror = false;
 };
 
 Uses FindUses(const Module& module) {
@@ -41,6 +42,9 @@ Uses FindUses(const Module& module) {
         switch (word.op) {
           case WordOp::kCycle:
             uses.cycles = uses.cycles || word.index != static_cast<std::uint8_t>(ir::Cycle::kNone);
+            break;
+          case WordOp::kModalCall:
+            uses.modal_calls = uses.modal_calls || word.Extra<ir::CallId>().Valid();
             break;
           case WordOp::kPolarMode:
             uses.polar = uses.polar || word.index != 0;
@@ -103,7 +107,7 @@ class Pass {
       case WordOp::kLengthOffset:
         return !uses_.length;
       case WordOp::kModalCall:
-        return !word.Extra<ir::CallId>().Valid();
+        return !word.Extra<ir::CallId>().Valid() && !uses_.modal_calls;
       case WordOp::kFrame:
         switch (static_cast<ir::FrameOp>(word.index)) {
           case ir::FrameOp::kRotateEnd:
@@ -133,9 +137,13 @@ class Pass {
       feed = feed || module_.words[word_id].op == WordOp::kFeed;
     }
     for (const WordId word_id : block.words) {
-      const Word word = module_.words[word_id];
+      Word word = module_.words[word_id];
       if (SwitchesNothing(word)) continue;
       switch (word.op) {
+        case WordOp::kReturn:
+          // RET takes the block as text (sinumerik-7.5).
+          if (word.value.Valid()) word.value = make_.Text(fmt::format("N{:.0f}", module_.exprs[word.value].number));
+          break;
         case WordOp::kDwellSeconds:
           dwell.push_back(word);
           continue;
@@ -143,7 +151,7 @@ class Pass {
           if (radius && input_.source_machine->arc_radius_beats_center) continue;
           break;
         case WordOp::kRadius:
-          CheckRadius(block, word, at);
+          if (!CheckRadius(block, word, at)) continue;
           break;
         case WordOp::kFeedMode:
           if (!FeedMode(program, id, block, word, before, feed)) continue;
@@ -255,17 +263,20 @@ class Pass {
     editor.Remove(id);
   }
 
-  /// A radius without another end point is no motion at all there, an alarm here (fanuc-8.3, sinumerik-8.3).
-  void CheckRadius(const Block& block, const Word& word, const ir::ModalState& at) {
-    if (!input_.source_machine->arc_radius_without_end_stays || at.plane == ir::Plane::kUnknown) return;
-    bool in_plane = false;
+  /// A radius without another end point is no motion at all there, an alarm here (fanuc-8.3, sinumerik-8.3). False: the
+  /// word goes, and with it the motion.
+  bool CheckRadius(const Block& block, const Word& word, const ir::ModalState& at) {
+    if (!input_.source_machine->arc_radius_without_end_stays || at.plane == ir::Plane::kUnknown) return true;
+    bool in_plane = false, any = false;
     for (const WordId word_id : block.words) {
       const Word& axis = module_.words[word_id];
-      if (axis.op != WordOp::kAxis || axis.index > 2) continue;
+      if (axis.op != WordOp::kAxis) continue;
+      any = true;
       const std::uint8_t normal = at.plane == ir::Plane::kXY ? 2 : at.plane == ir::Plane::kZX ? 1 : 0;
-      in_plane = in_plane || axis.index != normal;
+      in_plane = in_plane || (axis.index < 3 && axis.index != normal);
     }
-    if (!in_plane) Refuse(block, word, "an arc by its radius without an end point");
+    if (!in_plane && any) Refuse(block, word, "an arc by its radius without an end point");
+    return any;
   }
 
   /// Group 15 holds G94, G95 with G96, G97: a feed word under constant surface speed would end it (sinumerik-8.1).

@@ -112,7 +112,7 @@ class Pass {
   std::vector<State> entries_, exits_;         // per program
   std::map<std::uint32_t, State> before_;      // per block
   std::vector<std::uint8_t> dirty_;            // per program
-  bool modal_ = false;                         // a modal call may write common cells behind any motion
+  std::set<ProgramId> modal_callees_;
   SpaceId local_space_, given_space_;
   std::set<std::uint32_t> given_;       // local cells
   std::set<std::uint32_t> complained_;  // blocks
@@ -215,8 +215,8 @@ void Pass::FindWrites() {
   for (bool again = true; again;) {
     again = false;
     for (const analysis::CallSite& site : calls_.AllSites()) {
-      modal_ = modal_ || site.modal;
       if (!site.callee.Valid()) continue;
+      if (site.modal) modal_callees_.insert(site.callee);
       const bool shares = !module_.calls[site.call].new_level;
       for (const std::size_t index : writes_[site.callee.value]) {
         if (IsLocal(index) && !shares) continue;
@@ -351,9 +351,16 @@ void Pass::Transfer(ProgramId program, BlockId id, State& state) {
     ThroughWord(program, word, state);
   }
   if (may_not_run) Join(state, open);
-  if (!modal_) return;
-  for (std::size_t i = 0; i < cells_.size(); ++i) {
-    if (!IsLocal(i)) state[i] = kUnsure | kFromEntry;
+  // A modal call may run behind any block: with the common cells as they are then, and what it writes may be there.
+  for (const ProgramId callee : modal_callees_) {
+    State entry = state;
+    for (std::size_t i = 0; i < entry.size(); ++i) {
+      if (IsLocal(i)) entry[i] = 0;
+    }
+    Enter(callee, entry);
+    for (const std::size_t index : writes_[callee.value]) {
+      if (!IsLocal(index)) state[index] = static_cast<std::uint8_t>(state[index] | exits_[callee.value][index]);
+    }
   }
 }
 

@@ -1,0 +1,211 @@
+#include "backends/sinumerik/map_frames.h"
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "ir/analysis/call_graph.h"
+#include "ir/analysis/cfg.h"
+#include "ir/analysis/modal_state.h"
+#include "ir/builder.h"
+#include "ir/transform/program_editor.h"
+
+namespace ncport::backends::sinumerik {
+
+namespace {
+
+using ir::Block;
+using ir::BlockId;
+using ir::ExprId;
+using ir::ExprOp;
+using ir::FrameOp;
+using ir::Module;
+using ir::Word;
+using ir::WordId;
+using ir::WordOp;
+using ir::transform::ProgramEditor;
+
+Word FrameWord(FrameOp op) {
+  Word word;
+  word.op = WordOp::kFrame;
+  word.index = static_cast<std::uint8_t>(op);
+  word.phase = ir::DefaultPhaseOf(WordOp::kFrame);
+  return word;
+}
+
+class Pass {
+ public:
+  Pass(const RaiseInput& input, Translation& out, diag::Sink& sink)
+      : input_(input),
+        module_(out.module),
+        sink_(sink),
+        make_(out.module),
+        graphs_(out.module),
+        calls_(out.module),
+        flow_(out.module, *input.source_machine, graphs_, calls_,
+              {input.source_machine->start, input.config != nullptr ? input.config->entry : ir::ModalState{}}) {}
+
+  bool Run() {
+    bool shifts = false, rotations = false;
+    for (const ir::ProgramId program : module_.programs.Ids()) {
+      for (const BlockId id : module_.programs[program].blocks) {
+        const Word* frame = FrameOf(id);
+        if (frame == nullptr) continue;
+        shifts = shifts || Is(*frame, FrameOp::kLocalShift);
+        rotations = rotations || Is(*frame, FrameOp::kRotateAbout);
+      }
+    }
+    if (!shifts && !rotations) return true;
+    for (const ir::ProgramId program : module_.programs.Ids()) {
+      ProgramEditor editor(module_, program, "map_frames");
+      for (const BlockId id : module_.programs[program].blocks) {
+        const Word* frame = FrameOf(id);
+        if (frame == nullptr) continue;
+        const Block block = module_.blocks[id];
+        if (shifts && rotations) {
+          Refuse(block, *frame, "a shift and a rotation that stand beside each other");
+        } else if (Is(*frame, FrameOp::kLocalShift)) {
+          Shift(id, block, *frame);
+        } else if (Is(*frame, FrameOp::kRotateAbout)) {
+          Rotation(program, id, block, *frame, editor);
+        } else if (Is(*frame, FrameOp::kRotateEnd)) {
+          Replace(id, *frame, FrameWord(FrameOp::kTranslate));
+        }
+      }
+      editor.Apply();
+    }
+    return ok_;
+  }
+
+ private:
+  static bool Is(const Word& word, FrameOp op) { return word.index == static_cast<std::uint8_t>(op); }
+  [[nodiscard]] const Word* FrameOf(BlockId id) const {
+    for (const WordId word : module_.blocks[id].words) {
+      if (module_.words[word].op == WordOp::kFrame) return &module_.words[word];
+    }
+    return nullptr;
+  }
+  void Refuse(const Block& block, const Word& word, std::string_view what) {
+    ok_ = false;
+    sink_.Report(diag::Code::kNotExpressible, module_.RangeOf(block, word), what, input_.profile->name);
+  }
+
+  void Replace(BlockId id, const Word& old, const Word& made) {
+    for (const WordId word : module_.blocks[id].words) {
+      if (&module_.words[word] == &old) {
+        module_.words[word] = made;
+        return;
+      }
+    }
+  }
+
+  /// TRANS gives every axis that it does not name 0, G52 leaves it: so all G52 must name the same ones.
+  void Shift(BlockId id, const Block& block, const Word& frame) {
+    std::uint16_t axes = 0;
+    for (const WordId word_id : block.words) {
+      const Word& word = module_.words[word_id];
+      if (word.op == WordOp::kAxis) {
+        axes = static_cast<std::uint16_t>(axes | (1U << word.index));
+        if (word.mode != ir::ValueMode::kModal && word.mode != ir::ValueMode::kAbsolute)
+          return Refuse(block, word, "an increment in a shift");
+      } else if (word.op != WordOp::kFrame) {
+        return Refuse(block, word, "a word beside a shift");
+      }
+    }
+    if (!axes_) axes_ = axes;
+    if (*axes_ != axes || axes == 0) return Refuse(block, frame, "a shift that names other axes than another one");
+    for (const WordId word_id : block.words) {
+      Word& word = module_.words[word_id];
+      if (word.op != WordOp::kAxis) continue;
+      word.mode = ir::ValueMode::kModal;
+      const bool diameter =
+          input_.source_machine->frame_shift_in_diameter && word.index == input_.source_machine->transverse_axis;
+      // TRANS X is a radius whatever the diameter mode (sinumerik-8.5).
+      if (!diameter) continue;
+      const ir::Expr value = module_.exprs[word.value];
+      word.value = value.op == ExprOp::kLiteral ? make_.Literal(value.number / 2)
+                                                : make_.Binary(ExprOp::kDivide, word.value, make_.Number("2"));
+    }
+    Replace(id, frame, FrameWord(FrameOp::kTranslate));
+  }
+
+  /// About a centre: there, turn, and back by the way of the turned axes.
+  void Rotation(ir::ProgramId program, BlockId id, const Block& block, const Word& frame, ProgramEditor& editor) {
+    const ir::ModalState at = flow_.At(program, id);
+    if (at.plane == ir::Plane::kUnknown) return Refuse(block, frame, "a rotation whose plane is not one here");
+    const std::uint8_t normal = at.plane == ir::Plane::kXY ? 2 : at.plane == ir::Plane::kZX ? 1 : 0;
+    std::vector<Word> modes, there, back;
+    const Word* angle = nullptr;
+    bool origin = true;
+    for (const WordId word_id : block.words) {
+      const Word& word = module_.words[word_id];
+      if (word.op == WordOp::kFrameAngle) {
+        angle = &module_.words[word_id];
+      } else if (word.op == WordOp::kAxis && word.index < 3 && word.index != normal) {
+        Word made = word;
+        made.mode = ir::ValueMode::kModal;
+        there.push_back(made);
+        made.value = make_.Unary(ExprOp::kNegate, make_.Unary(ExprOp::kGroup, word.value));
+        back.push_back(made);
+        const ir::Expr& value = module_.exprs[word.value];
+        origin = origin && value.op == ExprOp::kLiteral && value.number == 0;
+      } else if (word.op == WordOp::kPlane || word.op == WordOp::kDistance) {
+        modes.push_back(word);
+      } else if (word.op != WordOp::kFrame) {
+        return Refuse(block, word, "a word beside a rotation");
+      }
+    }
+    if (angle == nullptr) return Refuse(block, frame, "a rotation by the angle of a parameter");
+    if (there.size() != 2) return Refuse(block, frame, "a rotation about the present position");
+    if (input_.source_machine->rotation_angle_by_distance && at.distance != ir::Distance::kAbsolute)
+      return Refuse(block, *angle, "an angle that may add to the one before");
+    const Word turn = *angle;
+    const auto put = [&](std::vector<Word> words, FrameOp op, bool own) {
+      words.insert(words.begin(), FrameWord(op));
+      if (own) {
+        Block changed = block;
+        editor.SetWords(changed, words);
+        module_.blocks[id].words = changed.words;
+        return;
+      }
+      Block made = editor.MakeBlock(id);
+      made.skip_level = block.skip_level;
+      editor.SetWords(made, words);
+      editor.InsertAfter(id, made);
+    };
+    if (!modes.empty()) {
+      // Frame words stand alone (sinumerik-1.3).
+      Block made = editor.MakeBlock(id);
+      made.skip_level = block.skip_level;
+      made.number = block.number;
+      made.number_digits = block.number_digits;
+      made.label = block.label;
+      made.comments = block.comments;
+      module_.blocks[id].number = Block::kNoNumber;
+      module_.blocks[id].label = {};
+      module_.blocks[id].comments = {};
+      editor.SetWords(made, modes);
+      editor.InsertBefore(id, made);
+    }
+    if (origin) return put({turn}, FrameOp::kRotate, true);
+    put(there, FrameOp::kTranslate, true);
+    put({turn}, FrameOp::kAddRotate, false);
+    put(back, FrameOp::kAddTranslate, false);
+  }
+
+  const RaiseInput& input_;
+  Module& module_;
+  diag::Sink& sink_;
+  ir::ExprBuilder make_;
+  ir::analysis::FlowGraphs graphs_;
+  ir::analysis::CallGraph calls_;
+  ir::analysis::ModalFlow flow_;
+  std::optional<std::uint16_t> axes_;
+  bool ok_ = true;
+};
+
+}  // namespace
+
+bool MapFrames(const RaiseInput& input, Translation& out, diag::Sink& sink) { return Pass(input, out, sink).Run(); }
+
+}  // namespace ncport::backends::sinumerik

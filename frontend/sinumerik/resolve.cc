@@ -167,7 +167,8 @@ bool Resolver::UnknownName(ExprId id, std::string_view name) {
   }
   std::sort(known.begin(), known.end());
   const std::string_view near = NearName(name, known);
-  if (!near.empty()) finding.help = "did you mean " + std::string(near) + "?";
+  finding.help = !near.empty() ? "did you mean " + std::string(near) + "?"
+                               : "declare it with DEF, or give the definition file (.DEF) that holds it too";
   missing_names_.emplace(key, Missing{&finding});
   finding.control = dialects::AlarmFor(profile_, finding.code);
   const auto main = std::find_if(variables_.begin(), variables_.end(), [&](const auto& entry) {
@@ -228,8 +229,9 @@ void Resolver::Program(ir::ProgramId program) {
 void Resolver::CountMissingNames() {
   for (const auto& [name, missing] : missing_names_) {
     if (missing.more == 0) continue;
+    const bool one = missing.more == 1;
     missing.finding->notes.push_back(
-        {{}, "it is used " + std::to_string(missing.more) + (missing.more == 1 ? " more time" : " more times")});
+        {{}, std::to_string(missing.more) + (one ? " more block uses it" : " more blocks use it")});
   }
 }
 

@@ -86,6 +86,10 @@ class Pass {
       for (const BlockId id : module_.programs[program].blocks) Arrange(program, id, editor);
       editor.Apply();
     }
+    if (input_.source_profile->rapid.Known() && input_.profile->rapid.Known() &&
+        *input_.source_profile->rapid != *input_.profile->rapid)
+      Assume(
+          "rapids of several axes run straight here, on the source control each axis runs on its own (sinumerik-8.2)");
     return ok_;
   }
 
@@ -93,6 +97,11 @@ class Pass {
   void Refuse(const Block& block, const Word& word, std::string_view what) {
     ok_ = false;
     sink_.Report(diag::Code::kNotExpressible, module_.RangeOf(block, word), what, input_.profile->name);
+  }
+
+  void Assume(std::string_view what) {
+    if (std::find(out_.assumptions.begin(), out_.assumptions.end(), what) == out_.assumptions.end())
+      out_.assumptions.emplace_back(what);
   }
 
   /// A word that switches off what nothing here switches on. A main program starts with all of it off; a subprogram
@@ -143,6 +152,19 @@ class Pass {
         case WordOp::kReturn:
           // RET takes the block as text (sinumerik-7.5).
           if (word.value.Valid()) word.value = make_.Text(fmt::format("N{:.0f}", module_.exprs[word.value].number));
+          // RET stands alone, M17 may share its block (sinumerik-1.2).
+          if (block.words.count == 1) break;
+          if (word.value.Valid()) Refuse(block, word, "other words beside a return to a block");
+          word.index = static_cast<std::uint8_t>(ir::ReturnKind::kAuxiliary);
+          break;
+        case WordOp::kCutterComp:
+          if (word.index == static_cast<std::uint8_t>(ir::CutterComp::kOff)) break;
+          Assume(
+              "G41 and G42: the programmed path was compared, approach and feed at the contour differ between controls "
+              "(sinumerik-8.8)");
+          break;
+        case WordOp::kMachineCoords:
+          Assume("SUPA moves to machine coordinates of the source machine: check each of them on the new one");
           break;
         case WordOp::kDwellSeconds:
           dwell.push_back(word);
@@ -222,10 +244,7 @@ class Pass {
     };
     insert(point);
     if (at.motion != ir::Motion::kRapid) insert({mode(WordOp::kMotion, static_cast<std::uint8_t>(at.motion))});
-    static constexpr std::string_view kAssumed =
-        "G75 goes to fixed point 1, which must be the reference point of the source machine (sinumerik-8.2)";
-    if (std::find(out_.assumptions.begin(), out_.assumptions.end(), kAssumed) == out_.assumptions.end())
-      out_.assumptions.emplace_back(kAssumed);
+    Assume("G75 goes to fixed point 1, which must be the reference point of the source machine (sinumerik-8.2)");
   }
 
   void SetWords(BlockId id, const Block& block, std::vector<Word>& words, const std::vector<Word>& dwell,

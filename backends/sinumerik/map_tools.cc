@@ -16,6 +16,7 @@
 
 #include "ir/analysis/call_graph.h"
 #include "ir/analysis/cfg.h"
+#include "ir/analysis/modal_state.h"
 #include "ir/builder.h"
 #include "ir/transform/program_editor.h"
 
@@ -120,7 +121,9 @@ class Pass {
         sink_(sink),
         make_(out.module),
         graphs_(out.module),
-        calls_(out.module) {}
+        calls_(out.module),
+        flow_(out.module, *input.source_machine, graphs_, calls_,
+              {input.source_machine->start, input.config != nullptr ? input.config->entry : ir::ModalState{}}) {}
 
   bool Run() {
     for (const ir::ProgramId program : module_.programs.Ids()) {
@@ -302,6 +305,7 @@ class Pass {
   /// The tool by itself: all keys of it name one.
   ExprId ToolValue(const Block& block, const Word& word, std::uint32_t tool) {
     std::optional<TargetTool> target;
+    if (tool == 0) target = TargetTool{.words = "T0", .name = {}};  // empties the spindle on both
     if (input_.config != nullptr) {
       const std::string t = fmt::format("T{}", tool);
       for (const dialects::WordMapping& mapping : input_.config->tools) {
@@ -423,6 +427,11 @@ class Pass {
             Refuse(block, word, "cutter compensation without a register of this tool");
           }
           break;
+        case WordOp::kPlane:
+          // The length of an edge lies along the third axis of the plane, the register's along Z (sinumerik-8.8).
+          if (word.index != static_cast<std::uint8_t>(ir::Plane::kXY) && after.length != 0 && after.length != kStale)
+            Refuse(block, word, "another plane than G17 while a length offset may be in force");
+          break;
         case WordOp::kCall:
           if (before.length == kStale) Refuse(block, word, "a call between a tool change and its length offset");
           break;
@@ -434,6 +443,9 @@ class Pass {
     const bool mine = with_tools_.contains(program.value);
     if (along != nullptr && machine == nullptr && (after.length == kStale || (mine && after.length == kOpen)))
       Refuse(block, *along, "a move along Z between a tool change and its length offset");
+    if (selects != nullptr && after.length != 0 && after.length != kStale &&
+        flow_.At(program, id).plane != ir::Plane::kXY)
+      Refuse(block, *selects, "a length offset in another plane than G17");
     const auto edge = selects != nullptr ? EdgeOf(block, *selects, after) : std::nullopt;
     if (selects != nullptr && !edge) return;
     if (edge) words.push_back(EdgeWord(*edge));
@@ -511,6 +523,7 @@ class Pass {
   ir::ExprBuilder make_;
   ir::analysis::FlowGraphs graphs_;
   ir::analysis::CallGraph calls_;
+  ir::analysis::ModalFlow flow_;
   std::set<std::uint32_t> with_tools_, with_tools_below_;
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, TargetTool> found_;
   std::map<std::uint32_t, std::pair<std::uint32_t, std::uint32_t>> fixed_;

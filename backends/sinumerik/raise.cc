@@ -80,6 +80,9 @@ bool NamePrograms(const RaiseInput& input, Translation& out, diag::Sink& sink) {
     if (wish.size() < 2 || !is_letter(wish[0]) || !is_letter(wish[1])) {
       wish = std::string(main ? "MAIN_" : "SUB_") + (digits == std::string::npos ? wish : wish.substr(digits));
     }
+    std::string upper = wish;
+    for (char& c : upper) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+    if (dialects::sinumerik::IsReserved(upper)) wish = "U_" + wish;
     if (wish.size() > most) wish.resize(most);
     name = wish;
     for (int n = 2; !taken.insert(name).second; ++n) name = fmt::format("{}_{}", wish.substr(0, most - 4), n);
@@ -192,9 +195,9 @@ bool RefuseFlow(const RaiseInput& input, Translation& out, diag::Sink& sink) {
     const bool main = module.programs[program].kind == ir::ProgramKind::kMain;
     for (const ir::BlockId id : module.programs[program].blocks) {
       const ir::Block& block = module.blocks[id];
-      const auto refuse = [&](const Word& word, std::string_view what) {
+      const auto refuse = [&](const Word& word, std::string_view what, std::string_view help = {}) {
         ok = false;
-        sink.Report(diag::Code::kNotExpressible, module.RangeOf(block, word), what, input.profile->name);
+        sink.Report(diag::Code::kNotExpressible, module.RangeOf(block, word), what, input.profile->name).help = help;
       };
       if ((block.flags & ir::Block::kRefused) != 0) {
         ok = false;  // has its finding already
@@ -210,7 +213,8 @@ bool RefuseFlow(const RaiseInput& input, Translation& out, diag::Sink& sink) {
             break;
           case WordOp::kReturn:
             if (main && (input.source_machine->return_in_main_restarts || word.value.Valid()))
-              refuse(word, "a return that starts the main program again");
+              refuse(word, "a return that starts the main program again",
+                     "a macro alone is taken for the main program: give the program that calls it in front of it");
             if (!main && word.value.Valid() && !ReturnsToOneBlock(module, calls, program, word))
               refuse(word, "a return to a block that is not one in the callers");
             break;

@@ -180,6 +180,7 @@ const ir::Word* MovingWord(const ir::Module& module, const ir::Block& block) {
       case WordOp::kFeedOnce:
       case WordOp::kFrame:
       case WordOp::kReference:
+      case WordOp::kMachineCoords:  // some controls go there at rapid
       case WordOp::kPole:
       case WordOp::kPresetPosition:
       case WordOp::kDwellSeconds:

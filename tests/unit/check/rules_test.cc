@@ -132,6 +132,7 @@ TEST_CASE("feed moves without a feed") {
   CHECK(Macro("O1\nG0 X1.\nG1 X2.\nM30\n") == "NC5002 3");
   CHECK(Mill("G0 X1 F100\nG1 X2\nM30\n").empty());
   CHECK(Mill("G0 X1\nIF R1>1\nF100\nENDIF\nG1 X2\nM30\n").empty());
+  CHECK(Macro("O1\nG90 G1\nG53 Z0.\nG91 G28 Z0.\nM30\n").empty());
   // Callers may have set it.
   CHECK(Sub("PROC SUB1\nG1 X2\nM17\n").empty());
   CHECK(Mill("G93\nG1 X1 F1\nTRANS X5\nG4 F2\nM30\n").empty());

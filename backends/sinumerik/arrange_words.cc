@@ -312,6 +312,14 @@ class Pass {
     return true;
   }
 
+  /// Some jump of the module may go to a block of this number.
+  [[nodiscard]] bool IsTarget(std::uint32_t number) const {
+    if (number == Block::kNoNumber) return false;
+    return std::any_of(module_.jumps.All().begin(), module_.jumps.All().end(), [&](const ir::Jump& jump) {
+      return jump.target.kind == ir::TargetKind::kExpression || jump.target.number == number;
+    });
+  }
+
   /// An F word comes before anything that moves at feed or leaves the straight way down.
   [[nodiscard]] bool FeedFollows(ir::ProgramId program, BlockId from) const {
     const IdRange<BlockId> blocks = module_.programs[program].blocks;
@@ -326,7 +334,7 @@ class Pass {
         if (word.phase == ir::Phase::kFlow || word.phase == ir::Phase::kLast) return false;
         moves = moves || word.phase == ir::Phase::kMotion;
       }
-      if (block.label.Valid() || block.number != Block::kNoNumber) return false;
+      if (block.label.Valid() || IsTarget(block.number)) return false;
       if (moves && flow_.At(program, id).motion != ir::Motion::kRapid) return false;
     }
     return false;

@@ -9,9 +9,11 @@
 #include <string_view>
 #include <vector>
 
+#include "backends/sinumerik/legal_check.h"
 #include "backends/sinumerik/map_frames.h"
 #include "backends/sinumerik/map_tools.h"
 #include "backends/sinumerik/raise_words.h"
+#include "backends/sinumerik/refuse_flow.h"
 #include "dialects/sinumerik/words.h"
 #include "ir/analysis/call_graph.h"
 #include "ir/builder.h"
@@ -101,163 +103,6 @@ bool NamePrograms(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   return ok;
 }
 
-/// Only one modal call is in force at a time here, the source stacks them (sinumerik-7.1, fanuc-7.4): they begin and
-/// end in turn, in one main program, with no way in or out between. And every block that moves runs the call, so no
-/// block may become two: no cycles and reference moves beside.
-bool ModalCallsFit(const Module& module) {
-  for (const ir::ProgramId program : module.programs.Ids()) {
-    bool active = false;
-    int depth = 0;
-    std::set<std::uint32_t> targets;
-    for (const ir::JumpId id : module.jumps.Ids()) {
-      const ir::Jump& jump = module.jumps[id];
-      if (jump.target.kind == ir::TargetKind::kNumber) targets.insert(jump.target.number);
-      if (jump.target.kind == ir::TargetKind::kExpression) return false;
-    }
-    for (const ir::BlockId id : module.programs[program].blocks) {
-      const ir::Block& block = module.blocks[id];
-      if (active && targets.contains(block.number)) return false;
-      for (const ir::WordId word_id : block.words) {
-        const Word& word = module.words[word_id];
-        switch (word.op) {
-          case WordOp::kModalCall: {
-            const bool begins = word.Extra<ir::CallId>().Valid();
-            if ((begins && (active || module.programs[program].kind != ir::ProgramKind::kMain)) ||
-                block.skip_level != ir::Block::kNoSkip || (!begins && depth != 0))
-              return false;
-            active = begins;
-            depth = 0;
-            break;
-          }
-          case WordOp::kJump:
-          case WordOp::kReturn:
-            if (active) return false;
-            break;
-          case WordOp::kCycle:
-            if (word.index != static_cast<std::uint8_t>(ir::Cycle::kNone)) return false;
-            break;
-          case WordOp::kReference:
-            return false;
-          case WordOp::kIf:
-          case WordOp::kWhile:
-          case WordOp::kLoop:
-            ++depth;
-            break;
-          case WordOp::kEndIf:
-          case WordOp::kEndWhile:
-          case WordOp::kEndLoop:
-            if (--depth < 0 && active) return false;
-            break;
-          default:
-            break;
-        }
-      }
-    }
-  }
-  return true;
-}
-
-/// M99 P: RET names the block by its text, and how it is looked for is not written anywhere: it must stand once in
-/// every caller.
-bool ReturnsToOneBlock(const Module& module, const ir::analysis::CallGraph& calls, ir::ProgramId program,
-                       const Word& word) {
-  const ir::Expr& target = module.exprs[word.value];
-  if (target.op != ExprOp::kLiteral) return false;
-  for (const auto& site : calls.AllSites()) {
-    if (site.callee != program) continue;
-    if (site.modal) return false;
-    int found = 0;
-    for (const ir::BlockId id : module.programs[site.caller].blocks) {
-      const ir::Block& block = module.blocks[id];
-      if (block.number != target.number) continue;
-      ++found;
-      if (block.skip_level != ir::Block::kNoSkip) return false;
-      for (const ir::WordId each : block.words) {
-        if (ir::IsStructureMark(module.words[each].op)) return false;
-      }
-    }
-    if (found != 1) return false;
-  }
-  return true;
-}
-
-/// Programs and calls that mean something else on the target.
-bool RefuseFlow(const RaiseInput& input, Translation& out, diag::Sink& sink) {
-  const Module& module = out.module;
-  const ir::analysis::CallGraph calls(module);
-  std::set<std::uint32_t> called;
-  for (const auto& site : calls.AllSites()) {
-    if (site.callee.Valid()) called.insert(site.callee.value);
-  }
-  bool ok = true;
-  const bool modal_calls_fit = ModalCallsFit(module);
-  for (const ir::ProgramId program : module.programs.Ids()) {
-    const bool main = module.programs[program].kind == ir::ProgramKind::kMain;
-    for (const ir::BlockId id : module.programs[program].blocks) {
-      const ir::Block& block = module.blocks[id];
-      const auto refuse = [&](const Word& word, std::string_view what, std::string_view help = {}) {
-        ok = false;
-        sink.Report(diag::Code::kNotExpressible, module.RangeOf(block, word), what, input.profile->name).help = help;
-      };
-      if ((block.flags & ir::Block::kRefused) != 0) {
-        ok = false;  // has its finding already
-        continue;
-      }
-      for (const ir::WordId word_id : block.words) {
-        const Word& word = module.words[word_id];
-        switch (word.op) {
-          case WordOp::kProgramEnd:
-            // A called M30 returns like M17 there (sinumerik-1.2).
-            if ((!main || called.contains(program.value)) && !input.source_machine->end_in_called_program_returns)
-              refuse(word, "the end of all programs inside a called one");
-            break;
-          case WordOp::kReturn:
-            if (main && (input.source_machine->return_in_main_restarts || word.value.Valid()))
-              refuse(word, "a return that starts the main program again",
-                     "a macro alone is taken for the main program: give the program that calls it in front of it");
-            if (!main && word.value.Valid() && !ReturnsToOneBlock(module, calls, program, word))
-              refuse(word, "a return to a block that is not one in the callers");
-            break;
-          case WordOp::kRestart:
-            refuse(word, "a start from the beginning");
-            break;
-          case WordOp::kSkipRest:
-            refuse(word, "a skip mark inside a block");
-            break;
-          case WordOp::kModalCall: {
-            if (!word.Extra<ir::CallId>().Valid()) break;
-            const ir::Call& call = module.calls[word.Extra<ir::CallId>()];
-            if (!modal_calls_fit || call.form != ir::CallForm::kName || call.passes.Valid()) {
-              refuse(word, "a modal macro call in this place");
-            } else if (!call.program.Valid()) {
-              ok = false;
-              sink.Report(diag::Code::kUnknownProgram, module.RangeOf(block, word), module.View(call.name));
-            }
-            break;
-          }
-          case WordOp::kCall: {
-            const ir::Call& call = module.calls[word.Extra<ir::CallId>()];
-            if (call.form != ir::CallForm::kName || call.from_block || call.name_expr.Valid()) {
-              refuse(word, "a call of a computed program or of a block range");
-            } else if (!call.program.Valid()) {
-              ok = false;
-              sink.Report(diag::Code::kUnknownProgram, module.RangeOf(block, word), module.View(call.name));
-            } else if (module.programs[call.program].kind == ir::ProgramKind::kMain) {
-              refuse(word, "a call of the main program");
-            } else if (call.new_level && call.passes.Valid() && input.source_machine->passes_keep_locals) {
-              refuse(word, "a repeated macro call, whose later passes find the locals of the first,");
-            }
-            break;
-          }
-          default:
-            break;
-        }
-      }
-    }
-  }
-  return ok;
-}
-
 /// System variables that have a counterpart; others are known only to their machine.
 bool MapSystemVariables(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   Module& module = out.module;
@@ -324,136 +169,6 @@ NumbersToNamesConfig CellConfig(const RaiseInput& input, const EmptyValuesResult
   config.written_at_end = empty.written_at_end;
   return config;
 }
-
-/// What is left must have a form in the target.
-class LegalCheck {
- public:
-  LegalCheck(const RaiseInput& input, const Module& module, diag::Sink& sink, bool expressions)
-      : input_(input), module_(module), sink_(sink), expressions_(expressions) {}
-
-  bool Run() {
-    for (const ir::ProgramId program : module_.programs.Ids()) {
-      for (const ir::BlockId id : module_.programs[program].blocks) {
-        block_ = &module_.blocks[id];
-        for (const ir::WordId word_id : block_->words) CheckWord(module_.words[word_id]);
-      }
-    }
-    return ok_;
-  }
-
- private:
-  void Refuse(const Word& word, std::string_view what) {
-    ok_ = false;
-    sink_.Report(diag::Code::kNotExpressible, module_.RangeOf(*block_, word), what, input_.profile->name);
-  }
-
-  void CheckWord(const Word& word) {
-    CheckExpr(word, word.value);
-    switch (word.op) {
-      case WordOp::kAssign:
-        CheckExpr(word, word.Extra<ExprId>());
-        return;
-      case WordOp::kCall:
-      case WordOp::kModalCall:
-        if (!word.Extra<ir::CallId>().Valid()) return;
-        for (const ir::ArgId arg : module_.calls[word.Extra<ir::CallId>()].args)
-          CheckExpr(word, module_.args[arg].value);
-        CheckExpr(word, module_.calls[word.Extra<ir::CallId>()].passes);
-        return;
-      case WordOp::kJump: {
-        const ir::Jump& jump = module_.jumps[word.Extra<ir::JumpId>()];
-        if (jump.target.kind == ir::TargetKind::kExpression) CheckExpr(word, jump.target.expr);
-        return;
-      }
-      case WordOp::kAlarm:
-      case WordOp::kMessage:
-      case WordOp::kStop:
-      case WordOp::kIf:
-      case WordOp::kElse:
-      case WordOp::kEndIf:
-      case WordOp::kWhile:
-      case WordOp::kEndWhile:
-      case WordOp::kLoop:
-      case WordOp::kEndLoop:
-      case WordOp::kReturn:
-      case WordOp::kAux:
-      case WordOp::kHeader:
-      case WordOp::kExtern:
-      case WordOp::kDefine:
-      case WordOp::kDwellSeconds:
-      case WordOp::kInert:  // made here: those of the source are gone
-        return;
-      case WordOp::kTool:
-      case WordOp::kToolChange:
-      case WordOp::kReference:
-      case WordOp::kProgramEnd:
-      case WordOp::kWorkOffset:
-        return;  // each has a pass that refuses it
-      case WordOp::kToolOffset:
-      case WordOp::kRadiusOffset:
-      case WordOp::kLengthOffset:
-      case WordOp::kRestart:
-      case WordOp::kSkipRest:
-        if (!expressions_) return;
-        break;
-      case WordOp::kAxis:
-        if (word.index >= ir::kLetterAxes) Refuse(word, "an axis with a name of its own");
-        if (!HasAxis(word.index)) Refuse(word, "an axis that the target does not have");
-        return;
-      case WordOp::kSpindle:
-      case WordOp::kSpeed:
-      case WordOp::kSpeedLimit:
-        if (word.index > 1) Refuse(word, "a second spindle");
-        return;
-      default:
-        break;
-    }
-    const bool code = dialects::sinumerik::Codes().FindMeaning(word.op, word.index, word.extra) != nullptr;
-    const bool address = dialects::sinumerik::FindAddress(word.op, word.index) != nullptr;
-    if (word.value.Valid() ? !address : !code) {
-      Refuse(word, word.spelling != 0 ? module_.View(module_.spellings[word.spelling].text) : ir::NameOf(word.op));
-    }
-  }
-
-  [[nodiscard]] bool HasAxis(std::uint8_t axis) const {
-    constexpr std::string_view kLetters = "XYZABCUVW";
-    return std::any_of(input_.profile->axes.begin(), input_.profile->axes.end(),
-                       [&](const std::string& name) { return name.size() == 1 && name[0] == kLetters[axis]; });
-  }
-
-  void CheckExpr(const Word& word, ExprId id) {
-    if (!id.Valid() || !expressions_) return;
-    const ir::Expr& expr = module_.exprs[id];
-    switch (expr.op) {
-      case ExprOp::kFunction: {
-        const auto function = static_cast<ir::Function>(expr.a);
-        if (dialects::sinumerik::FindFunction(function) == nullptr && function != ir::Function::kToText)
-          return Refuse(word, fmt::format("the function {}", ir::NameOf(function)));
-        for (std::uint32_t i = 0; i < expr.count; ++i) CheckExpr(word, module_.Item(expr.b + i));
-        return;
-      }
-      case ExprOp::kBitAnd:
-      case ExprOp::kBitOr:
-      case ExprOp::kBitXor:
-        return Refuse(word, "a bit operation on numbers that are not INT");  // sinumerik-4.2
-      case ExprOp::kVacant:
-      case ExprOp::kName:
-        return Refuse(word, ir::NameOf(expr.op));
-      default:
-        break;
-    }
-    if (ir::OperandsOf(expr.op) == ir::Operands::kUnary || ir::OperandsOf(expr.op) == ir::Operands::kBinary)
-      CheckExpr(word, ExprId{std::size_t{expr.a}});
-    if (ir::OperandsOf(expr.op) == ir::Operands::kBinary) CheckExpr(word, ExprId{std::size_t{expr.b}});
-  }
-
-  const RaiseInput& input_;
-  const Module& module_;
-  diag::Sink& sink_;
-  bool expressions_;
-  const ir::Block* block_ = nullptr;
-  bool ok_ = true;
-};
 
 /// Values that the compiler made are printed like any other.
 void ShowImplied(Module& module) {
@@ -529,7 +244,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   const ir::Machine& machine = *input.source_machine;
   const ir::ModalState entry = input.config != nullptr ? input.config->entry : ir::ModalState{};
 
-  bool ok = RefuseFlow(input, out, sink);
+  bool ok = RefuseFlow(input, module, sink);
   ok = ArrangeTexts(input, out, sink) && ok;
   // While the source's modes and flags still stand in the words: numbers in their units, rounding where it counts.
   ok = ResolveIncrements(module, machine, entry, sink) && ok;
@@ -545,7 +260,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   ok = MapSystemVariables(input, out, sink) && ok;
   if (!ok) {
     // Words without a form are named in the same run; what expressions become is not known yet.
-    LegalCheck(input, module, sink, false).Run();
+    static_cast<void>(CheckLegal(input, module, false, sink));
     return false;
   }
 
@@ -586,7 +301,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   out.cells = std::move(names.map);
   DropSpellings(out);
   ShiftSkipLevels(input, module);
-  return names.ok && LegalCheck(input, module, sink, true).Run() && ok;
+  return names.ok && CheckLegal(input, module, true, sink) && ok;
 }
 
 }  // namespace ncport::backends::sinumerik

@@ -251,10 +251,11 @@ prove::Precision PrecisionOf(const dialects::Profile& profile, const ir::Machine
 }  // namespace
 
 prove::Verification CompareTranslation(Context& context, const ProgramSet& source, const ir::Machine& source_machine,
-                                       ir::ProgramId entry, const dialects::Profile& target,
+                                       ir::ProgramId entry, const dialects::Profile& to,
                                        const backends::Translation& translation,
                                        const std::vector<backends::OutputFile>& files, const dialects::Config* config,
                                        const ComparisonSetup& setup, std::vector<prove::Input>& inputs) {
+  const dialects::Profile target = backends::ForReading(to);
   prove::Verification result;
   ir::Module module;
   std::string problem;

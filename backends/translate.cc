@@ -25,6 +25,13 @@ bool Raise(const TranslateInput& input, Translation& translation, diag::Sink& si
   return false;
 }
 
+dialects::Profile ForReading(const dialects::Profile& to) {
+  dialects::Profile profile = to;
+  // Angles are brought between -180 and 180 behind each function that yields them (fanuc-14, rows 32 and 33).
+  if (!profile.fanuc.atan_range.Known()) profile.fanuc.atan_range.Set(dialects::FanucSettings::AtanRange::kPositive);
+  return profile;
+}
+
 std::vector<OutputFile> Print(const dialects::Profile& to, const Translation& translation,
                               const std::vector<ProgramHeader>& headers) {
   switch (to.language) {

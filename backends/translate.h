@@ -37,6 +37,9 @@ struct OutputFile {
 
 /// Rewrites the module for the target. Fails after findings: each place that has no form is one.
 bool Raise(const TranslateInput& input, Translation& translation, diag::Sink& sink);
+/// The profile under which the output is read back. Settings that it leaves open and that the output serves whichever
+/// way they are have one of their answers.
+dialects::Profile ForReading(const dialects::Profile& to);
 /// The raised module as text, with comment lines at the head of its programs.
 std::vector<OutputFile> Print(const dialects::Profile& to, const Translation& translation,
                               const std::vector<ProgramHeader>& headers);

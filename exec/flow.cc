@@ -198,8 +198,9 @@ bool Runner::CountingLoop(const ir::Block& opening, bool first, BlockId closing)
   }
   if (first || !session_.machine.for_end_once) memory_[end_cell] = Value::Real(evaluator_.Number(loop.end));
   if (session_.halted) return true;
-  const Value old = evaluator_.Load(place);
-  evaluator_.Store(place, old.type == ir::Type::kInt ? Value::Int(counter) : Value::Real(counter));
+  // By the type of the place: the first pass writes it without having read it.
+  const bool whole = module.exprs[loop.variable].type == ir::Type::kInt;
+  evaluator_.Store(place, whole ? Value::Int(counter) : Value::Real(counter));
   if (session_.halted) return true;
   const double end = memory_[end_cell].number;
   const double tolerance = session_.machine.compare_tolerance;

@@ -64,8 +64,11 @@ struct Selected {
 /// One side as it is walked through.
 class Walk {
  public:
-  Walk(const std::vector<Event>& events, const Maps& maps, bool source)
+  Walk(const std::vector<Event>& events, const Maps& maps, bool source, const ir::WorkOffset& start)
       : events_(events), maps_(maps), source_(source) {
+    now_.wcs_known = start.known;
+    now_.wcs = start.number;
+    now_.wcs_extension = start.extension;
     for (const Event& event : events_) {
       motions_left_ += IsMotion(event.kind) && !event.added ? 1U : 0U;
       if (IsMotion(event.kind) || event.kind == EventKind::kTool) last_ = &event;
@@ -79,6 +82,7 @@ class Walk {
   [[nodiscard]] const Spindles& SpindlesNow() const { return spindles_; }
   [[nodiscard]] const Spindles& SpindlesWithoutAdded() const { return own_spindles_; }
   [[nodiscard]] const Selected& Now() const { return now_; }
+  [[nodiscard]] const Selected& WithoutAdded() const { return own_; }
   [[nodiscard]] std::uint16_t Dirty() const { return dirty_; }
   [[nodiscard]] const std::optional<std::string>& Complaint() const { return complaint_; }
   void MotionDone(const Event& event) {
@@ -212,6 +216,8 @@ const Event* Walk::Next() {
         if (TakeState(event) && !maps_.tools_mapped) return &event;  // mapped offsets are compared as state at motions
         continue;
       case EventKind::kWorkOffset:
+        TakeState(event);  // compared as state at motions and at the end
+        continue;
       case EventKind::kComp:
         if (TakeState(event)) return &event;
         continue;
@@ -247,12 +253,13 @@ const Event* Walk::Next() {
 
 class Comparer {
  public:
-  Comparer(const RecordedTrace& source, const RecordedTrace& target, const CompareOptions& options)
+  Comparer(const RecordedTrace& source, const RecordedTrace& target, const CompareOptions& options,
+           const ir::WorkOffset& target_start)
       : options_(options),
         source_events_(source.Events()),
         target_events_(target.Events()),
-        source_(source_events_, options.maps, true),
-        target_(target_events_, options.maps, false) {}
+        source_(source_events_, options.maps, true, {}),
+        target_(target_events_, options.maps, false, target_start) {}
 
   Comparison Run();
 
@@ -274,8 +281,7 @@ class Comparer {
   void CompareSpindle(const Event& a, const Event& b, const SpindleNow& sa, const SpindleNow& sb);
   void CompareTool(const Event& a, const Event& b);
   void CompareToolState(const Event& a, const Event& b);
-  void CompareWorkOffset(const Event& a, const Event& b, std::uint32_t wcs_a, std::uint32_t ext_a, std::uint32_t wcs_b,
-                         std::uint32_t ext_b);
+  void CompareWorkOffset(const Event& a, const Event& b);
   bool SkipSplitRapid(const Event& a);
   void NoteLonely(const Event& event, std::uint16_t axes, std::array<std::optional<double>, ir::kMaxAxes>& seen,
                   std::uint16_t& moving);
@@ -451,15 +457,23 @@ void Comparer::CompareToolState(const Event& a, const Event& b) {
   Fail(&a, &b, "the tool offset in force is not the one that the tool map gives");
 }
 
-void Comparer::CompareWorkOffset(const Event& a, const Event& b, std::uint32_t wcs_a, std::uint32_t ext_a,
-                                 std::uint32_t wcs_b, std::uint32_t ext_b) {
+/// The work offset in force. A source that selects none works with the one that is in force, whichever it is.
+void Comparer::CompareWorkOffset(const Event& a, const Event& b) {
+  const Selected& sa = source_.Now();
+  const Selected& sb = target_.Now();
+  if (!sa.wcs_known) {
+    if (target_.WithoutAdded().wcs_known) Fail(&a, &b, "a work offset is selected in the target only");
+    return;
+  }
+  if (!sb.wcs_known) return Fail(&a, &b, "a work offset is selected in the source only");
   for (const NumberPair& pair : options_.maps.work_offsets) {
-    if (pair.source == wcs_a && pair.source_extension == ext_a) {
-      if (pair.target == wcs_b && pair.target_extension == ext_b) return;
+    if (pair.source == sa.wcs && pair.source_extension == sa.wcs_extension) {
+      if (pair.target == sb.wcs && pair.target_extension == sb.wcs_extension) return;
       return Fail(&a, &b, "the work offset of the target is not the one that the map gives");
     }
   }
-  if (wcs_a != wcs_b || ext_a != ext_b) Fail(&a, &b, fmt::format("work offset {} became {}", wcs_a, wcs_b));
+  if (sa.wcs != sb.wcs || sa.wcs_extension != sb.wcs_extension)
+    Fail(&a, &b, fmt::format("work offset {} became {}", sa.wcs, sb.wcs));
 }
 
 void Comparer::CompareEnds(const Event& a, const Event& b) {
@@ -490,10 +504,7 @@ void Comparer::ComparePair(const Event& a, const Event& b) {
       if (!Failed() && (IsCutting(a.kind) || ((options_.maps.separate_registers || options_.maps.source_registers) &&
                                               a.kind == EventKind::kRapid)))
         CompareToolState(a, b);
-      if (!Failed() && source_.Now().wcs_known && target_.Now().wcs_known) {
-        CompareWorkOffset(a, b, source_.Now().wcs, source_.Now().wcs_extension, target_.Now().wcs,
-                          target_.Now().wcs_extension);
-      }
+      if (!Failed()) CompareWorkOffset(a, b);
       if (!Failed() && a.kind == EventKind::kRapid && source_.SpindlesNow() != target_.SpindlesNow())
         ++result_.spindle_moved_across_rapid;
       source_.MotionDone(a);
@@ -511,9 +522,6 @@ void Comparer::ComparePair(const Event& a, const Event& b) {
       break;
     case EventKind::kComp:
       if (a.comp != b.comp) Fail(&a, &b, "cutter compensation differs");
-      break;
-    case EventKind::kWorkOffset:
-      CompareWorkOffset(a, b, a.number, a.extension, b.number, b.extension);
       break;
     case EventKind::kPath:
       if (a.path != b.path) Fail(&a, &b, "exact stop and path control differ");
@@ -537,6 +545,7 @@ void Comparer::ComparePair(const Event& a, const Event& b) {
       break;
     case EventKind::kEnd:
       CompareSpindles(a, b, source_.SpindlesWithoutAdded(), target_.SpindlesWithoutAdded());
+      if (!Failed()) CompareWorkOffset(a, b);
       break;
     default:
       break;
@@ -606,8 +615,9 @@ Comparison Comparer::Run() {
 
 }  // namespace
 
-Comparison Compare(const RecordedTrace& source, const RecordedTrace& target, const CompareOptions& options) {
-  return Comparer(source, target, options).Run();
+Comparison Compare(const RecordedTrace& source, const RecordedTrace& target, const CompareOptions& options,
+                   const ir::WorkOffset& target_start) {
+  return Comparer(source, target, options, target_start).Run();
 }
 
 }  // namespace ncport::prove

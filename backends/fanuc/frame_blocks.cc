@@ -8,6 +8,9 @@
 #include <string_view>
 
 #include "dialects/fanuc/words.h"
+#include "ir/analysis/call_graph.h"
+#include "ir/analysis/cfg.h"
+#include "ir/analysis/modal_state.h"
 #include "ir/builder.h"
 #include "ir/transform/program_editor.h"
 
@@ -117,9 +120,47 @@ std::vector<std::string> SafetyLines(const RaiseInput& input, bool calls_tools) 
                                 : start.feed_mode;
   add(feed == ir::FeedMode::kPerMinute ? profile.words.feed_per_minute.Or("")
                                        : profile.words.feed_per_revolution.Or(""));
-  if (profile.IsLathe()) add(code(WordOp::kSpeedMode, static_cast<std::uint8_t>(ir::SpeedMode::kRpm)));
+  add(code(WordOp::kSpeedMode, static_cast<std::uint8_t>(ir::SpeedMode::kRpm)));
   lines.push_back(line);
   return lines;
+}
+
+/// The modes that the programs take over from the start of the source: a feed or a plane that is in force at a motion
+/// without a word of theirs. The words of a header that say otherwise become those.
+void StartAsSource(const RaiseInput& input, const Module& module, std::vector<std::string>& head) {
+  const auto system = *dialects::fanuc::SystemOf(*input.profile);
+  const ir::ModalState& start = input.source_machine->start;
+  const ir::analysis::FlowGraphs graphs(module);
+  const ir::analysis::CallGraph calls(module);
+  const ir::analysis::ModalFlow flow(module, *input.source_machine, graphs, calls, {});
+  bool feed = false, plane = false;
+  for (const ir::ProgramId program : module.programs.Ids()) {
+    for (const BlockId id : module.programs[program].blocks) {
+      bool moves = false;
+      for (const ir::WordId word : module.blocks[id].words) {
+        const WordOp op = module.words[word].op;
+        moves = moves || op == WordOp::kAxis || op == WordOp::kCenter || op == WordOp::kRadius || op == WordOp::kFeed;
+      }
+      if (!moves || !flow.Reached(program, id)) continue;
+      const ir::ModalState state = flow.At(program, id);
+      feed = feed || state.feed_mode == ir::FeedMode::kUnknown;
+      plane = plane || state.plane == ir::Plane::kUnknown;
+    }
+  }
+  const auto say = [&](WordOp op, std::uint8_t wanted, std::uint8_t last) {
+    const dialects::CodeRow* row = dialects::fanuc::Codes(system).FindMeaning(op, wanted);
+    if (wanted == 0 || row == nullptr) return;
+    for (std::string& line : head) {
+      for (std::uint8_t other = 1; other <= last; ++other) {
+        const dialects::CodeRow* old = dialects::fanuc::Codes(system).FindMeaning(op, other);
+        if (old == nullptr || other == wanted) continue;
+        const std::size_t at = (" " + line + " ").find(" " + std::string(old->text) + " ");
+        if (at != std::string::npos) line.replace(at, old->text.size(), row->text);
+      }
+    }
+  };
+  if (feed) say(WordOp::kFeedMode, static_cast<std::uint8_t>(start.feed_mode), 3);
+  if (plane) say(WordOp::kPlane, static_cast<std::uint8_t>(start.plane), 3);
 }
 
 }  // namespace
@@ -155,6 +196,8 @@ void FrameMainPrograms(const RaiseInput& input, Translation& out) {
   const std::vector<std::string> footer = Filled(profile, *profile.words.footer);
   if (head.empty()) {
     head = SafetyLines(input, !out.tools.empty());
+  } else {
+    StartAsSource(input, module, head);
   }
   // The feed mode that the source starts with, where the head ends in another one (mazak-lathe-10.3: G94 for the way
   // out, then G95).

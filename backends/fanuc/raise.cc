@@ -299,7 +299,10 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   // Expressions before structure: a test that needs statements makes IF blocks; structure before names: it makes
   // locals.
   for (const ir::ProgramId program : module.programs.Ids()) {
-    ok = LowerExpressions(module, program, {}, sink) && ok;
+    LowerExpressionsConfig expressions;
+    expressions.compare_tolerance = machine.compare_tolerance;
+    expressions.for_counter_rounds = machine.for_counter_rounds;
+    ok = LowerExpressions(module, program, expressions, sink) && ok;
     StructureToJumpsConfig structure;
     structure.loop_depth = static_cast<std::uint32_t>(std::min<std::int64_t>(profile.nesting.loop.Or(3), 3));
     if (profile.names.block_numbers.Known()) structure.last_number = profile.names.block_numbers->last;

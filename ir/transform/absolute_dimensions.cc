@@ -206,9 +206,11 @@ void Pass::FindEffects() {
 
 Pass::Scale Pass::ScaleOf(const Word& word, std::uint8_t axis, const ModalState& state, BlockId block, bool report) {
   Scale scale;
+  // Where no way leads, nothing runs under any mode.
+  const bool reached = flow_.Reached(program_, block);
   const auto unknown = [&](std::string_view group) {
     scale.known = false;
-    if (!report) return;
+    if (!report || !reached) return;
     ok_ = false;
     sink_.Report(diag::Code::kUnknownModalState, module_.RangeOf(module_.blocks[block], word), group,
                  "the programs that lead here leave it open");

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "ir/analysis/number_kinds.h"
 #include "ir/builder.h"
 #include "ir/transform/conditions.h"
 #include "ir/transform/new_local.h"
@@ -23,7 +25,11 @@ class Lowering {
         config_(config),
         sink_(sink),
         make_(module),
-        editor_(module, program, "lower_expressions") {}
+        editor_(module, program, "lower_expressions") {
+    // From the module as it came: what is lowered below would hide how numbers came about.
+    if (config.compare_tolerance > 0)
+      kinds_.emplace(module, analysis::CallGraph(module), config.for_counter_rounds);
+  }
 
   bool Run();
 
@@ -32,6 +38,11 @@ class Lowering {
   ExprId Value(ExprId id);
   /// As a condition: AND, OR, NOT and comparisons stay, their sides become numbers.
   ExprId Condition(ExprId id);
+  ExprId Comparison(const Expr& expr);
+  /// The part of `value` within which numbers count as equal.
+  ExprId Band(ExprId value);
+  /// True when the two can be equal but for their last bits.
+  [[nodiscard]] bool MayNearlyEqual(ExprId left, ExprId right) const;
   ExprId ValueOfFunction(const Expr& expr);
   ExprId Truth(ExprId condition);
   ExprId Simple(ExprId value, std::string_view name);
@@ -57,6 +68,7 @@ class Lowering {
   BlockId block_;                  // block being lowered
   std::vector<Block> statements_;  // that go in front of it
   std::uint32_t labels_ = 0;
+  std::optional<analysis::NumberKinds> kinds_;
   bool ok_ = true;
 };
 
@@ -113,13 +125,65 @@ ExprId Lowering::Condition(ExprId id) {
       return make_.Binary(ExprOp::kNotEqual, left, Truth(ExprId{expr.b}));
     }
     default:
-      if (IsComparison(expr.op)) {
-        const ExprId left = Value(ExprId{expr.a});
-        return make_.Binary(expr.op, left, Value(ExprId{expr.b}), expr.flags);
-      }
+      if (IsComparison(expr.op)) return Comparison(expr);
       break;
   }
   return Value(id);
+}
+
+/// Without brackets, conversions and signs, which change no size.
+ExprId Core(const Module& module, ExprId id) {
+  while (true) {
+    const Expr& expr = module.exprs[id];
+    if (expr.op != ExprOp::kGroup && expr.op != ExprOp::kConvert && expr.op != ExprOp::kPlus &&
+        expr.op != ExprOp::kNegate)
+      return id;
+    id = ExprId{expr.a};
+  }
+}
+
+bool Lowering::MayNearlyEqual(ExprId left, ExprId right) const {
+  if (!kinds_ || (analysis::IsExact(kinds_->Of(left)) && analysis::IsExact(kinds_->Of(right)))) return false;
+  for (const ExprId side : {left, right}) {
+    const Expr& core = module_.exprs[Core(module_, side)];
+    if (core.type == Type::kString) return false;
+    // A part of nothing is nothing: beside 0 only 0 is equal.
+    if (core.op == ExprOp::kLiteral && core.number == 0) return false;
+  }
+  return true;
+}
+
+ExprId Lowering::Band(ExprId value) {
+  const Expr& expr = module_.exprs[value];
+  const bool positive = expr.op == ExprOp::kLiteral && expr.number > 0;
+  // In steps that eight digits can write.
+  ExprId band = positive ? value : make_.Function(Function::kAbs, {value});
+  for (double rest = 1 / config_.compare_tolerance; rest > 1.5;) {
+    const double step = std::fmin(rest, 1e6);
+    band = make_.Binary(ExprOp::kDivide, band, make_.Literal(std::round(step)));
+    rest /= step;
+  }
+  return band;
+}
+
+/// a == b within a tolerance: ABS(a - b) <= band; a < b and not equal: b - a > band; and their opposites. Which of the
+/// two sides gives the band makes no difference where it decides: there they are nearly equal.
+ExprId Lowering::Comparison(const Expr& expr) {
+  ExprId left = Value(ExprId{expr.a});
+  const bool plain = (expr.flags & Expr::kTolerance) == 0 || !MayNearlyEqual(ExprId{expr.a}, ExprId{expr.b});
+  ExprId right = Value(ExprId{expr.b});
+  const auto flags = static_cast<std::uint8_t>(expr.flags & ~Expr::kTolerance);
+  if (plain) return make_.Binary(expr.op, left, right, flags);
+  const bool by_left = module_.exprs[left].op == ExprOp::kLiteral || !IsSimplePlace(module_, right);
+  ExprId& measure = by_left && IsSimplePlace(module_, left) ? left : right;
+  measure = Simple(measure, "LIMIT");
+  const ExprId band = Band(measure);
+  const bool swapped = expr.op == ExprOp::kLess || expr.op == ExprOp::kGreaterEqual;
+  ExprId difference = make_.Binary(ExprOp::kSubtract, swapped ? right : left, swapped ? left : right);
+  if (expr.op == ExprOp::kEqual || expr.op == ExprOp::kNotEqual)
+    difference = make_.Function(Function::kAbs, {difference});
+  const bool apart = expr.op == ExprOp::kNotEqual || expr.op == ExprOp::kLess || expr.op == ExprOp::kGreater;
+  return make_.Binary(apart ? ExprOp::kGreater : ExprOp::kLessEqual, difference, band);
 }
 
 ExprId Lowering::List(const Expr& expr) {
@@ -323,8 +387,17 @@ void Lowering::LowerBlock(BlockId id) {
         LowerWhile(id);
         continue;
       case WordOp::kFor: {
+        const For loop = module_.fors[word.Extra<ForId>()];
+        const bool near = MayNearlyEqual(loop.variable, loop.end);
+        const bool rounds = config_.for_counter_rounds && !IsIntegral(module_, value);
         value = Value(value);
-        const ExprId end = Value(module_.fors[word.Extra<ForId>()].end);
+        if (rounds) value = make_.Function(Function::kRound, {value});
+        ExprId end = Value(loop.end);
+        if (near) {
+          // The last pass runs where the counter is past the end by less than the band.
+          end = Simple(end, "END");
+          end = make_.Binary(ExprOp::kAdd, end, Band(end));
+        }
         module_.fors[word.Extra<ForId>()].end = end;
         break;
       }

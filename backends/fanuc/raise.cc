@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <set>
 #include <string>
@@ -100,7 +101,8 @@ bool NamePrograms(const RaiseInput& input, const SplitResult& split, Translation
     std::string& name = names[program.value];
     if (!name.empty()) continue;
     const std::string source = source_name(program);
-    const std::size_t digits = source.size() > 1 && (source[0] == 'L' || source[0] == 'O') ? 1 : 0;
+    const int letter = std::toupper(static_cast<unsigned char>(source.empty() ? ' ' : source[0]));
+    const std::size_t digits = source.size() > 1 && (letter == 'L' || letter == 'O') ? 1 : 0;
     const bool numbered =
         source.find_first_not_of("0123456789", digits) == std::string::npos && source.size() - digits <= 4;
     if (numbered && !taken.contains(source.substr(digits)) && std::stoul(source.substr(digits)) != 0) {

@@ -20,20 +20,20 @@ NumberKind OfLiteral(const Expr& literal) {
   if (literal.number == std::floor(literal.number) && std::fabs(literal.number) < 1e12) return NumberKind::kWhole;
   const bool plain = (literal.format.flags & (NumberFormat::kAsText | NumberFormat::kComputed)) == 0;
   return plain && literal.format.int_digits + literal.format.decimals <= kDigits ? NumberKind::kWritten
-                                                                                   : NumberKind::kComputed;
+                                                                                 : NumberKind::kComputed;
 }
 
 }  // namespace
 
 NumberKinds::NumberKinds(const Module& module, const CallGraph& calls, bool counters_round)
     : module_(module),
+      graphs_(module),
       counters_round_(counters_round),
       variables_(module.variables.Size(), NumberKind::kNever),
       any_cell_(module.spaces.Size(), NumberKind::kNever),
       whole_space_(module.spaces.Size(), NumberKind::kNever),
       input_space_(module.spaces.Size(), false) {
-  const FlowGraphs graphs(module);
-  for (const UnwrittenRead& read : UnwrittenCells(module, graphs, calls)) {
+  for (const UnwrittenRead& read : UnwrittenCells(module, graphs_, calls)) {
     if (read.cell == UnwrittenRead::kComputed) {
       input_space_[read.space.value] = true;
     } else {
@@ -43,6 +43,7 @@ NumberKinds::NumberKinds(const Module& module, const CallGraph& calls, bool coun
   std::vector<bool> called(module.programs.Size(), false);
   for (const CallSite& site : calls.AllSites()) {
     if (site.callee.Valid()) called[site.callee.value] = true;
+    modal_ = modal_ || site.modal;
   }
   for (const ProgramId program : module.programs.Ids()) {
     const IdRange<VariableId> parameters = module.programs[program].parameters;
@@ -97,9 +98,19 @@ NumberKind NumberKinds::OfCell(SpaceId space, std::uint32_t cell) const {
   return kind;
 }
 
-NumberKind NumberKinds::Of(ExprId id) const {
+const NumberKind* NumberKinds::Slot(const Expr& place, const State* state) const {
+  if (state == nullptr) return nullptr;
+  const CellKey key = place.op == ExprOp::kCell ? CellKey{place.a, place.b} : CellKey{kNoSpace, place.a};
+  const auto slot = flow_.slots.find(key);
+  return slot == flow_.slots.end() ? nullptr : &(*state)[slot->second];
+}
+
+NumberKind NumberKinds::Of(ExprId id, const State* state) const {
   const Expr& expr = module_.exprs[id];
-  const auto left = [&] { return Of(ExprId{expr.a}); };
+  if (expr.op == ExprOp::kVariable || expr.op == ExprOp::kCell) {
+    if (const NumberKind* held = Slot(expr, state)) return *held;
+  }
+  const auto left = [&] { return Of(ExprId{expr.a}, state); };
   switch (expr.op) {
     case ExprOp::kLiteral:
       return OfLiteral(expr);
@@ -125,11 +136,11 @@ NumberKind NumberKinds::Of(ExprId id) const {
     case ExprOp::kSubtract:
     case ExprOp::kModulo: {
       // A sum of counts is a count; a product may grow beyond what doubles tell apart.
-      const NumberKind both = Join(left(), Of(ExprId{expr.b}));
+      const NumberKind both = Join(left(), Of(ExprId{expr.b}, state));
       return both <= NumberKind::kWhole ? both : NumberKind::kComputed;
     }
     case ExprOp::kMultiply: {
-      const NumberKind both = Join(left(), Of(ExprId{expr.b}));
+      const NumberKind both = Join(left(), Of(ExprId{expr.b}, state));
       if (both == NumberKind::kNever) return both;
       const bool literal = module_.exprs[ExprId{expr.a}].op == ExprOp::kLiteral ||
                            module_.exprs[ExprId{expr.b}].op == ExprOp::kLiteral || IsCount(expr.type);
@@ -163,7 +174,7 @@ NumberKind NumberKinds::Of(ExprId id) const {
         case Function::kMaximum:
         case Function::kBound: {
           NumberKind kind = NumberKind::kNever;
-          for (std::uint32_t i = 0; i < expr.count; ++i) kind = Join(kind, Of(module_.Item(expr.b + i)));
+          for (std::uint32_t i = 0; i < expr.count; ++i) kind = Join(kind, Of(module_.Item(expr.b + i), state));
           return kind;
         }
         default:
@@ -244,6 +255,138 @@ void NumberKinds::Run() {
       for (const BlockId id : program.blocks) Read(module_.blocks[id]);
     }
   } while (changed_);
+}
+
+NumberKind NumberKinds::Everywhere(const CellKey& slot) const {
+  if (slot.first != kNoSpace) return Join(OfCell(SpaceId{std::size_t{slot.first}}, slot.second), NumberKind::kWhole);
+  const VariableId variable{std::size_t{slot.second}};
+  if (IsCount(module_.variables[variable].type)) return NumberKind::kWhole;
+  return Join(variables_[variable.value], NumberKind::kWhole);
+}
+
+NumberKinds::State NumberKinds::Through(const Block& block, State state) const {
+  const bool conditional = block.skip_level != Block::kNoSkip;
+  const State before = state;
+  for (const WordId id : block.words) {
+    const Word& word = module_.words[id];
+    switch (word.op) {
+      case WordOp::kAssign: {
+        const Expr& place = module_.exprs[word.Extra<ExprId>()];
+        if (place.op == ExprOp::kCellAt) {
+          const NumberKind kind = Of(word.value, &state);
+          for (const auto& [key, slot] : flow_.slots) {
+            if (key.first == place.b) state[slot] = Join(state[slot], kind);
+          }
+          break;
+        }
+        if (place.op != ExprOp::kVariable && place.op != ExprOp::kCell) break;
+        const CellKey key = place.op == ExprOp::kCell ? CellKey{place.a, place.b} : CellKey{kNoSpace, place.a};
+        const auto slot = flow_.slots.find(key);
+        if (slot == flow_.slots.end()) break;
+        const bool count = IsCount(place.op == ExprOp::kCell ? module_.spaces[SpaceId{place.a}].type : place.type);
+        state[slot->second] = count ? NumberKind::kWhole : Of(word.value, &state);
+        break;
+      }
+      case WordOp::kDefine: {
+        const VariableId variable = word.Extra<VariableId>();
+        const auto slot = flow_.slots.find({kNoSpace, variable.value});
+        if (slot == flow_.slots.end()) break;
+        const ExprId initial = module_.variables[variable].initial;
+        state[slot->second] = initial.Valid() ? Of(initial, &state) : NumberKind::kWhole;
+        if (IsCount(module_.variables[variable].type)) state[slot->second] = NumberKind::kWhole;
+        break;
+      }
+      case WordOp::kAssignList:
+      case WordOp::kCall:
+      case WordOp::kModalCall:
+      case WordOp::kRepeatPart:
+      case WordOp::kWhen:
+      case WordOp::kSkipRest:
+      case WordOp::kVerbatim:
+        for (const auto& [key, slot] : flow_.slots) state[slot] = Everywhere(key);
+        break;
+      default:
+        break;
+    }
+  }
+  if (conditional) {
+    for (std::size_t i = 0; i < state.size(); ++i) state[i] = Join(state[i], before[i]);
+  }
+  return state;
+}
+
+void NumberKinds::Follow(ProgramId program) {
+  flow_ = {};
+  flow_.program = program;
+  const IdRange<BlockId> blocks = module_.programs[program].blocks;
+  if (blocks.Empty()) return;
+  // Where only the run knows what follows a block, nothing is followed.
+  bool opaque = graphs_.Of(program).Opaque();
+  for (const BlockId id : blocks) {
+    for (const WordId word : module_.blocks[id].words) {
+      const Word& call = module_.words[word];
+      if (call.op != WordOp::kCall || !call.Extra<CallId>().Valid()) continue;
+      const Call& known = module_.calls[call.Extra<CallId>()];
+      opaque = opaque || known.form == CallForm::kBlockRange || known.from_block;
+    }
+  }
+  for (const BlockId id : blocks) {
+    if (opaque) break;
+    for (const WordId word : module_.blocks[id].words) {
+      if (module_.words[word].op != WordOp::kAssign) continue;
+      const Expr& place = module_.exprs[module_.words[word].Extra<ExprId>()];
+      if (place.op == ExprOp::kCell) flow_.slots.emplace(CellKey{place.a, place.b}, flow_.slots.size());
+      if (place.op == ExprOp::kVariable && !module_.variables[VariableId{place.a}].by_reference)
+        flow_.slots.emplace(CellKey{kNoSpace, place.a}, flow_.slots.size());
+    }
+  }
+  // Counters of FOR are written by the loop itself: they stay what they are everywhere.
+  for (const For& loop : module_.fors.All()) {
+    const Expr& place = module_.exprs[loop.variable];
+    flow_.slots.erase(place.op == ExprOp::kCell ? CellKey{place.a, place.b} : CellKey{kNoSpace, place.a});
+  }
+  std::size_t next = 0;
+  for (auto& [key, slot] : flow_.slots) slot = next++;
+  State entry(flow_.slots.size());
+  for (const auto& [key, slot] : flow_.slots) entry[slot] = Everywhere(key);
+  const Cfg& graph = graphs_.Of(program);
+  const auto merge = [&](BlockId id, const State& state) {
+    const auto [known, fresh] = flow_.before.try_emplace(id, state);
+    if (fresh) return true;
+    bool changed = false;
+    for (std::size_t i = 0; i < state.size(); ++i) {
+      const NumberKind joined = Join(known->second[i], state[i]);
+      changed = changed || joined != known->second[i];
+      known->second[i] = joined;
+    }
+    return changed;
+  };
+  merge(blocks[0], entry);
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const BlockId id : blocks) {
+      const auto before = flow_.before.find(id);
+      if (before == flow_.before.end()) continue;
+      const State after = Through(module_.blocks[id], before->second);
+      flow_.after[id] = after;
+      for (const Edge& edge : graph.Successors(id)) {
+        if (edge.to.Valid()) {
+          changed = merge(edge.to, after) || changed;
+        } else if (edge.kind == EdgeKind::kComputed) {
+          for (const BlockId target : graph.ComputedTargets()) changed = merge(target, entry) || changed;
+        }
+      }
+    }
+  }
+}
+
+NumberKind NumberKinds::At(ProgramId program, BlockId block, ExprId expr) {
+  if (modal_) return Of(expr);
+  if (flow_.program != program) Follow(program);
+  const auto before = flow_.before.find(block);
+  if (before == flow_.before.end()) return Of(expr);
+  // Assignments of the block itself may stand in front of the expression or behind it.
+  return Join(Of(expr, &before->second), Of(expr, &flow_.after.at(block)));
 }
 
 }  // namespace ncport::ir::analysis

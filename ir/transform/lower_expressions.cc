@@ -27,8 +27,8 @@ class Lowering {
         make_(module),
         editor_(module, program, "lower_expressions") {
     // From the module as it came: what is lowered below would hide how numbers came about.
-    if (config.compare_tolerance > 0)
-      kinds_.emplace(module, analysis::CallGraph(module), config.for_counter_rounds);
+    if (config.compare_tolerance > 0) kinds_.emplace(module, analysis::CallGraph(module), config.for_counter_rounds);
+    if (kinds_) kinds_->Prepare(program);
   }
 
   bool Run();
@@ -42,7 +42,7 @@ class Lowering {
   /// The part of `value` within which numbers count as equal.
   ExprId Band(ExprId value);
   /// True when the two can be equal but for their last bits.
-  [[nodiscard]] bool MayNearlyEqual(ExprId left, ExprId right) const;
+  [[nodiscard]] bool MayNearlyEqual(ExprId left, ExprId right);
   ExprId ValueOfFunction(const Expr& expr);
   ExprId Truth(ExprId condition);
   ExprId Simple(ExprId value, std::string_view name);
@@ -142,15 +142,16 @@ ExprId Core(const Module& module, ExprId id) {
   }
 }
 
-bool Lowering::MayNearlyEqual(ExprId left, ExprId right) const {
-  if (!kinds_ || (analysis::IsExact(kinds_->Of(left)) && analysis::IsExact(kinds_->Of(right)))) return false;
+bool Lowering::MayNearlyEqual(ExprId left, ExprId right) {
+  if (!kinds_) return false;
   for (const ExprId side : {left, right}) {
     const Expr& core = module_.exprs[Core(module_, side)];
     if (core.type == Type::kString) return false;
     // A part of nothing is nothing: beside 0 only 0 is equal.
     if (core.op == ExprOp::kLiteral && core.number == 0) return false;
   }
-  return true;
+  return !analysis::IsExact(kinds_->At(program_, block_, left)) ||
+         !analysis::IsExact(kinds_->At(program_, block_, right));
 }
 
 ExprId Lowering::Band(ExprId value) {

@@ -45,7 +45,11 @@ class Pass {
     bool any = false;
     for (const Program& program : module_.programs.All()) any = any || program.saves_modal_state;
     if (!any) return true;
-    for (const ProgramId program : module_.programs.Ids()) Restore(program);
+    FindModal();
+    for (const ProgramId program : module_.programs.Ids()) {
+      Restore(program);
+      if (inside_[program.value]) RestoreInside(program);
+    }
     for (Program& program : module_.programs.All()) program.saves_modal_state = false;
     return ok_;
   }
@@ -80,6 +84,81 @@ class Pass {
     }
   }
 
+  /// Programs that are called modally run behind blocks whose text says nothing of them: they put back what they found
+  /// themselves.
+  void FindModal() {
+    inside_.assign(module_.programs.Size(), false);
+    for (const analysis::CallSite& site : calls_.AllSites()) {
+      if (site.modal && site.callee.Valid() && module_.programs[site.callee].saves_modal_state)
+        inside_[site.callee.value] = true;
+    }
+  }
+
+  /// Words that put the changed groups back to `before`; a group that is not one value is a finding at `at`.
+  std::vector<Word> WordsFor(ProgramId callee, const ModalState& before, const SourceRange& at) {
+    std::vector<Word> words;
+    for (std::size_t group = 0; group < std::size(kGroups); ++group) {
+      if ((changes_[callee.value] >> group & 1U) == 0) continue;
+      const std::uint8_t value = kGroups[group].value(before);
+      if (value == 0) {
+        // A group that was never set has nothing to go back to only if nothing relies on it: that is not known here.
+        if (kGroups[group].op == WordOp::kPathMode) continue;
+        ok_ = false;
+        sink_.Report(diag::Code::kUnknownModalState, at, kGroups[group].name,
+                     "the called program puts it back (SAVE), and what it was is not one value here");
+        continue;
+      }
+      Word made;
+      made.op = kGroups[group].op;
+      made.index = value;
+      made.phase = DefaultPhaseOf(made.op);
+      made.flags = Word::kAdded;
+      words.push_back(made);
+    }
+    return words;
+  }
+
+  /// The words that put back stand in front of each return of the program.
+  void RestoreInside(ProgramId program) {
+    const IdRange<BlockId> blocks = module_.programs[program].blocks;
+    if (blocks.Empty()) return;
+    const std::vector<Word> words = WordsFor(program, flow_.Entry(program), module_.RangeOf(module_.blocks[blocks[0]]));
+    if (words.empty()) return;
+    ProgramEditor editor(module_, program, "save_to_restores");
+    for (const BlockId id : blocks) {
+      const Block block = module_.blocks[id];
+      std::vector<Word> rest, returns;
+      for (const WordId word_id : block.words) {
+        const Word& word = module_.words[word_id];
+        const bool leaves = word.op == WordOp::kReturn || word.op == WordOp::kProgramEnd;
+        (leaves ? returns : rest).push_back(word);
+      }
+      if (returns.empty()) continue;
+      // The block's own words first, then what puts back, then the return.
+      Block back = editor.MakeBlock(id);
+      back.skip_level = block.skip_level;
+      editor.SetWords(back, words);
+      if (rest.empty()) {
+        back.label = block.label;
+        back.number = block.number;
+        back.number_digits = block.number_digits;
+        module_.blocks[id].label = {};
+        module_.blocks[id].number = Block::kNoNumber;
+        editor.InsertBefore(id, back);
+        continue;
+      }
+      Block leave = editor.MakeBlock(id);
+      leave.skip_level = block.skip_level;
+      editor.SetWords(leave, returns);
+      Block changed = block;
+      editor.SetWords(changed, rest);
+      module_.blocks[id].words = changed.words;
+      editor.InsertAfter(id, back);
+      editor.InsertAfter(id, leave);
+    }
+    editor.Apply();
+  }
+
   void Restore(ProgramId program) {
     ProgramEditor editor(module_, program, "save_to_restores");
     for (const BlockId id : module_.programs[program].blocks) {
@@ -89,27 +168,8 @@ class Pass {
         if (word.op != WordOp::kCall || !word.Extra<CallId>().Valid()) continue;
         const ProgramId callee = module_.calls[word.Extra<CallId>()].program;
         if (!callee.Valid() || !module_.programs[callee].saves_modal_state) continue;
-        const ModalState before = flow_.At(program, id);
-        std::vector<Word> words;
-        for (std::size_t group = 0; group < std::size(kGroups); ++group) {
-          if ((changes_[callee.value] >> group & 1U) == 0) continue;
-          const std::uint8_t value = kGroups[group].value(before);
-          if (value == 0) {
-            // A group that was never set has nothing to go back to only if nothing relies on it: that is not known
-            // here.
-            if (kGroups[group].op == WordOp::kPathMode) continue;
-            ok_ = false;
-            sink_.Report(diag::Code::kUnknownModalState, module_.RangeOf(block, word), kGroups[group].name,
-                         "the called program puts it back (SAVE), and what it was is not one value here");
-            continue;
-          }
-          Word made;
-          made.op = kGroups[group].op;
-          made.index = value;
-          made.phase = DefaultPhaseOf(made.op);
-          made.flags = Word::kAdded;
-          words.push_back(made);
-        }
+        if (inside_[callee.value]) continue;
+        const std::vector<Word> words = WordsFor(callee, flow_.At(program, id), module_.RangeOf(block, word));
         if (words.empty()) continue;
         Block made = editor.MakeBlock(id);
         made.skip_level = block.skip_level;
@@ -126,6 +186,7 @@ class Pass {
   analysis::CallGraph calls_;
   analysis::ModalFlow flow_;
   std::vector<std::uint32_t> changes_;
+  std::vector<bool> inside_;  // per program: puts back what it found before it returns
   bool ok_ = true;
 };
 

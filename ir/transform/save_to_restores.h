@@ -1,6 +1,6 @@
 // A program that puts the modal state of its caller back when it returns (SAVE) becomes one that does not, with the
-// words that put it back behind each of its calls: few languages have SAVE. Only groups that the program or what it
-// calls can change.
+// words that put it back behind each of its calls, or, where it is called modally, in front of its returns: few
+// languages have SAVE. Only groups that the program or what it calls can change.
 #pragma once
 
 #include "base/diag/sink.h"

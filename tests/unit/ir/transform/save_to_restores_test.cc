@@ -1,0 +1,85 @@
+#include "ir/transform/save_to_restores.h"
+
+#include "tests/unit/ir/transform/dump_pass.h"
+
+namespace ncport::ir::transform {
+namespace {
+
+std::string Restore(const std::string& text, diag::Sink& sink, const ModalState& start) {
+  return test::After("ncport-ir 1\nfile m\n" + text, sink, [&](Module& module, diag::Sink& findings) {
+    Machine machine;
+    machine.start = start;
+    return SaveToRestores(module, machine, {}, findings);
+  });
+}
+
+ModalState Start() {
+  ModalState start;
+  start.distance = Distance::kAbsolute;
+  return start;
+}
+
+constexpr std::string_view kSub =
+    "program SUB sub @m:10 saves-modal-state header\n"
+    "  @m:11 : distance incremental\n"
+    "  @m:12 label OUT : return plain\n";
+
+TEST_CASE("the caller's modes are put back behind a call (sinumerik-7.3)") {
+  diag::Sink sink;
+  const std::string text =
+      "program M main @m:0\n"
+      "  @m:1 : call name SUB calls SUB\n"
+      "  @m:2 : program-end #30\n" +
+      std::string(kSub);
+  CHECK(Restore(text, sink, Start()) ==
+        "program M main\n"
+        "call name SUB calls SUB\n"
+        "distance absolute {added}\n"
+        "program-end #30\n"
+        "program SUB sub\n"
+        "distance incremental\n"
+        "label OUT return plain\n");
+  CHECK_FALSE(sink.HasErrors());
+}
+
+TEST_CASE("a program that is called modally puts them back itself, also where jumps lead to its return") {
+  diag::Sink sink;
+  const std::string text =
+      "program M main @m:0\n"
+      "  @m:1 : modal-call name SUB calls SUB\n"
+      "  @m:2 : axis X = 5\n"
+      "  @m:3 : modal-call\n"
+      "  @m:4 : program-end #30\n" +
+      std::string(kSub);
+  CHECK(Restore(text, sink, Start()) ==
+        "program M main\n"
+        "modal-call name SUB calls SUB\n"
+        "axis X = 5\n"
+        "modal-call\n"
+        "program-end #30\n"
+        "program SUB sub\n"
+        "distance incremental\n"
+        "label OUT distance absolute {added}\n"
+        "return plain\n");
+  CHECK_FALSE(sink.HasErrors());
+}
+
+TEST_CASE("what the modes were must be one value") {
+  diag::Sink sink;
+  const std::string text =
+      "program M main @m:0\n"
+      "  @m:1 : call name SUB calls SUB\n"
+      "  @m:2 : program-end #30\n" +
+      std::string(kSub);
+  Restore(text, sink, {});
+  CHECK(sink.HasErrors());
+}
+
+TEST_CASE("a program that saves nothing stays as it is") {
+  diag::Sink sink;
+  CHECK(Restore("program M main @m:0\n  @m:1 : distance incremental\n  @m:2 : program-end #30\n", sink, Start()) ==
+        "program M main\ndistance incremental\nprogram-end #30\n");
+}
+
+}  // namespace
+}  // namespace ncport::ir::transform

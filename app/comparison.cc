@@ -71,14 +71,16 @@ class Binder {
 
   std::vector<prove::BoundInput> Arguments(ir::ProgramId entry);
   void Cells(ir::ProgramId entry, const ir::Machine& machine, std::vector<prove::BoundInput>& inputs);
+  /// Ends of ranges that are other inputs. A name that is none of them is a finding.
+  bool Relate(std::vector<prove::BoundInput>& inputs, diag::Sink& sink) const;
 
  private:
   void ApplyRange(prove::Input& input) const {
     if (config_ == nullptr) return;
     for (const dialects::ValueRange& range : config_->ranges) {
       if (!SameName(range.name, input.name)) continue;
-      input.low = range.least;
-      input.high = range.most;
+      if (range.least_of.empty()) input.low = range.least;
+      if (range.most_of.empty()) input.high = range.most;
     }
   }
 
@@ -206,6 +208,35 @@ void Binder::Cells(ir::ProgramId entry, const ir::Machine& machine, std::vector<
   }
 }
 
+bool Binder::Relate(std::vector<prove::BoundInput>& inputs, diag::Sink& sink) const {
+  if (config_ == nullptr) return true;
+  bool ok = true;
+  for (prove::BoundInput& bound : inputs) {
+    const std::string_view name = bound.input.name;
+    const std::size_t dot = name.find('.');
+    const std::string_view program = dot == std::string_view::npos ? std::string_view{} : name.substr(0, dot + 1);
+    const auto end = [&](const dialects::ValueRange& range, const std::string& of,
+                         double added) -> std::optional<prove::RelatedEnd> {
+      if (of.empty()) return std::nullopt;
+      for (std::size_t i = 0; i < inputs.size(); ++i) {
+        const std::string_view other = inputs[i].input.name;
+        if (&inputs[i] == &bound) continue;
+        if (SameName(other, of) || SameName(other, std::string(program) + of)) return prove::RelatedEnd{i, added};
+      }
+      ok = false;
+      sink.Report(diag::Code::kUnknownKey, range.at, of).help =
+          fmt::format("{} takes its range from an input that this comparison has not", name);
+      return std::nullopt;
+    };
+    for (const dialects::ValueRange& range : config_->ranges) {
+      if (!SameName(range.name, name)) continue;
+      bound.input.low_of = end(range, range.least_of, range.least);
+      bound.input.high_of = end(range, range.most_of, range.most);
+    }
+  }
+  return ok;
+}
+
 prove::Maps MapsOf(const ir::Module& source, const backends::Translation& translation, bool separate_registers) {
   prove::Maps maps;
   for (const ir::BlockId id : source.blocks.Ids()) {
@@ -276,6 +307,10 @@ prove::Verification CompareTranslation(Context& context, const ProgramSet& sourc
   Binder binder(source, translation, module, config);
   std::vector<prove::BoundInput> bound = binder.Arguments(entry);
   binder.Cells(entry, source_machine, bound);
+  if (!binder.Relate(bound, context.findings)) {
+    result.not_compared = "a range refers to an input that does not exist";
+    return result;
+  }
   for (const prove::BoundInput& input : bound) inputs.push_back(input.input);
 
   prove::VerifyOptions options;

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
+#include <charconv>
 #include <filesystem>
 #include <iterator>
 #include <system_error>
@@ -193,9 +195,39 @@ class Reader {
     return true;
   }
 
+  /// "EXTD", "EXTD-1", "CYCLE.EXTD + 0.5": a name, and a number that is added to it.
+  static bool ReadSum(std::string_view text, std::string& name, double& added) {
+    std::string plain;
+    for (const char c : text) {
+      if (c != ' ') plain += c;
+    }
+    const std::size_t sign = std::min(plain.find_first_of("+-"), plain.size());
+    name = plain.substr(0, sign);
+    if (name.empty() || (std::isalpha(static_cast<unsigned char>(name[0])) == 0 && name[0] != '_')) return false;
+    added = 0;
+    if (sign == plain.size()) return true;
+    const char* first = plain.data() + sign + (plain[sign] == '+' ? 1 : 0);
+    const char* last = plain.data() + plain.size();
+    const auto [end, error] = std::from_chars(first, last, added);
+    return error == std::errc{} && end == last;
+  }
+
   void ReadRange(const std::string& path, const TomlMember& member) {
-    ValueRange range{member.key, 0, 0, member.key_at};
-    if (ReadPair(path, member.value, range.least, range.most)) config_.ranges.push_back(std::move(range));
+    ValueRange range{member.key, 0, 0, member.key_at, {}, {}};
+    const TomlNode& value = member.value;
+    const auto is_text = [](const TomlNode& item) { return item.kind == TomlKind::kText; };
+    if (value.kind != TomlKind::kList || value.items.size() != 2 || std::ranges::none_of(value.items, is_text)) {
+      if (ReadPair(path, value, range.least, range.most)) config_.ranges.push_back(std::move(range));
+      return;
+    }
+    const auto end = [&](const TomlNode& item, double& number, std::string& name) {
+      if (is_text(item)) return ReadSum(item.text, name, number);
+      number = item.number;
+      return item.kind == TomlKind::kInteger || item.kind == TomlKind::kNumber;
+    };
+    if (!end(value.items[0], range.least, range.least_of) || !end(value.items[1], range.most, range.most_of))
+      return Refuse(path, value, "[least, most], each a number or another input such as \"EXTD-1\",");
+    config_.ranges.push_back(std::move(range));
   }
 
   void ReadLimit(const std::string& path, const TomlMember& member) {

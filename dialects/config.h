@@ -28,12 +28,14 @@ struct ProgramMapping {
   std::vector<std::string> targets;  // numbers as digits; more than one where a cycle is split
   SourceRange at;
 };
-/// Values that comparison may draw from: "TURNING_CYCLE.EXTD" or "R10" = [20, 300].
+/// Values that comparison may draw from: "TURNING_CYCLE.EXTD" or "R10" = [20, 300]. An end may be another input with a
+/// number added: "TURNING_CYCLE.INTD" = [5, "EXTD-1"]; a parameter of the same program needs no program name.
 struct ValueRange {
   std::string name;
-  double least = 0;
+  double least = 0;  // a number, or what is added to `least_of`
   double most = 0;
   SourceRange at;
+  std::string least_of, most_of;  // empty: the end is a number
 };
 /// Largest value of a word ("spindle" 1/min, "feed" mm/min), or envelope of an axis ("x": -most .. most, or [least,
 /// most]).

@@ -49,7 +49,32 @@ double ParameterSource::Draw(const Input& input) {
   return Fit(input, std::round(value / grid) * grid);
 }
 
-ParameterSet ParameterSource::Next() {
+Input ParameterSource::Bounded(std::size_t index, const ParameterSet& set) const {
+  Input input = inputs_[index];
+  if (input.low_of) input.low = set[input.low_of->input] + input.low_of->added;
+  if (input.high_of) input.high = set[input.high_of->input] + input.high_of->added;
+  return input;
+}
+
+bool ParameterSource::Relate(ParameterSet& set) {
+  // Ends may lead through several inputs; a circle of them is left as an empty range.
+  for (std::size_t round = 0; round <= inputs_.size(); ++round) {
+    bool changed = false;
+    for (std::size_t i = 0; i < inputs_.size(); ++i) {
+      if (!inputs_[i].low_of && !inputs_[i].high_of) continue;
+      const Input input = Bounded(i, set);
+      if (input.low && input.high && *input.low > *input.high) return false;
+      if (Fit(input, set[i]) == set[i]) continue;
+      // Drawn anew, so that the ends do not gather all that lay outside.
+      set[i] = input.low && input.high ? Draw(input) : Fit(input, set[i]);
+      changed = true;
+    }
+    if (!changed) return true;
+  }
+  return false;
+}
+
+ParameterSet ParameterSource::DrawSet() {
   ParameterSet set;
   set.reserve(inputs_.size());
   const std::uint64_t turn = drawn_++;
@@ -58,18 +83,29 @@ ParameterSet ParameterSource::Next() {
   // Boundaries: each input at its lowest and highest value once, the others at random.
   if (turn > 0 && turn <= inputs_.size() * 2) {
     const std::size_t index = (turn - 1) / 2;
-    const Input& input = inputs_[index];
+    const Input input = Bounded(index, set);
     const std::optional<double> bound = turn % 2 == 1 ? input.low : input.high;
     if (bound) set[index] = Fit(input, *bound);
   }
   return set;
 }
 
+ParameterSet ParameterSource::Next() {
+  constexpr int kTries = 100;  // an empty range of one draw is not empty in most others
+  ParameterSet set = DrawSet();
+  for (int i = 0; i < kTries && !Relate(set); ++i) set = DrawSet();
+  return set;
+}
+
 std::optional<ParameterSet> ParameterSource::With(const ParameterSet& set, std::size_t index, double value) const {
-  const Input& input = inputs_[index];
-  if (!std::isfinite(value) || Fit(input, value) != value) return std::nullopt;
   ParameterSet changed = set;
   changed[index] = value;
+  if (!std::isfinite(value) || Fit(Bounded(index, changed), value) != value) return std::nullopt;
+  for (std::size_t i = 0; i < inputs_.size(); ++i) {
+    const bool related = (inputs_[i].low_of && inputs_[i].low_of->input == index) ||
+                         (inputs_[i].high_of && inputs_[i].high_of->input == index);
+    if (related && Fit(Bounded(i, changed), changed[i]) != changed[i]) return std::nullopt;
+  }
   return changed;
 }
 

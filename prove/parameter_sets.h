@@ -11,12 +11,19 @@
 
 namespace ncport::prove {
 
+/// An end of a range that depends on another input: its value and a number.
+struct RelatedEnd {
+  std::size_t input = 0;
+  double added = 0;
+};
+
 /// One input that comparison varies.
 struct Input {
-  std::string name;                 // "TURNING_CYCLE.EXTD", "R10"
-  std::optional<double> low, high;  // declared range, both included
-  std::vector<double> seen;         // values that calls give
-  bool integer = false;             // INT, BOOL
+  std::string name;                           // "TURNING_CYCLE.EXTD", "R10"
+  std::optional<double> low, high;            // declared range, both included
+  std::optional<RelatedEnd> low_of, high_of;  // instead of `low`, `high`
+  std::vector<double> seen;                   // values that calls give
+  bool integer = false;                       // INT, BOOL
   bool boolean = false;
 };
 
@@ -49,7 +56,12 @@ class ParameterSource {
   [[nodiscard]] const std::vector<Input>& Inputs() const { return inputs_; }
 
  private:
+  [[nodiscard]] ParameterSet DrawSet();
   [[nodiscard]] double Draw(const Input& input);
+  /// The input with the ends that others give it in `set`.
+  [[nodiscard]] Input Bounded(std::size_t index, const ParameterSet& set) const;
+  /// Brings inputs whose ends are others into their ranges; false: a range is empty.
+  bool Relate(ParameterSet& set);
   [[nodiscard]] static double Fit(const Input& input, double value);
 
   std::vector<Input> inputs_;

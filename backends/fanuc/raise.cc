@@ -19,6 +19,7 @@
 #include "ir/transform/absolute_dimensions.h"
 #include "ir/transform/lower_expressions.h"
 #include "ir/transform/names_to_numbers.h"
+#include "ir/transform/resolve_axes.h"
 #include "ir/transform/save_to_restores.h"
 #include "ir/transform/split_at_tool_change.h"
 #include "ir/transform/split_statements.h"
@@ -271,6 +272,11 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   const ir::ModalState entry = input.config != nullptr ? input.config->entry : ir::ModalState{};
 
   const bool framed = NeedFrame(input, sink);
+  {
+    const ir::analysis::FlowGraphs graphs(module);
+    const ir::analysis::CallGraph calls(module);
+    ResolveAxes(module, ir::analysis::ModalFlow(module, machine, graphs, calls, {machine.start, entry}));
+  }
   TextsToComments(input, out, sink);
   bool ok = RefuseInputs(input, out, sink);
   ok = SaveToRestores(module, machine, entry, sink) && ok;

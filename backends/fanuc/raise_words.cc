@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "backends/fanuc/message_text.h"
+#include "backends/fanuc/tool_flow.h"
 #include "ir/analysis/call_graph.h"
 #include "ir/analysis/cfg.h"
 #include "ir/analysis/modal_state.h"
@@ -177,13 +178,20 @@ bool MapTools(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   const bool own_offset = changes_by_m6 && input.profile->fanuc.length_word.Is(LengthWord::kG43P1);
   const std::string_view example = changes_by_m6 ? "T01.01 M6" : lathe ? "T0101" : "T1 M6 H1 D1";
   bool ok = true;
+  // Of the module as it came: what is written below changes none of it.
+  const ToolFlow tools(module);
+  const ir::analysis::FlowGraphs graphs(module);
+  const ir::analysis::CallGraph calls(module);
+  const ir::analysis::ModalFlow flow(
+      module, *input.source_machine, graphs, calls,
+      {input.source_machine->start, input.config != nullptr ? input.config->entry : ir::ModalState{}});
+  bool selects = false;  // some program selects a work offset
+  for (const Word& word : module.words.All()) selects = selects || word.op == WordOp::kWorkOffset;
   for (const ir::ProgramId program : module.programs.Ids()) {
     ProgramEditor editor(module, program, "map_tools");
-    std::string last_tool;          // the T word in force on the straight way down, as written
-    std::uint32_t work_offset = 0;  // selected on the straight way down; 0 = none
     for (const BlockId id : module.programs[program].blocks) {
       const Block block = module.blocks[id];
-      if (block.label.Valid() || block.number != Block::kNoNumber) last_tool.clear();
+      std::string last_tool(tools.Before(id));  // the T word in force, as written
       std::vector<Word> kept;
       const Word* tool = nullptr;
       const Word* edge = nullptr;
@@ -199,9 +207,9 @@ bool MapTools(const RaiseInput& input, Translation& out, diag::Sink& sink) {
         } else {
           kept.push_back(word);
         }
-        if (word.op == WordOp::kWorkOffset) work_offset = word.extra;
       }
       if (tool == nullptr && edge == nullptr && !change) continue;
+      const ir::WorkOffset work_offset = flow.At(program, id).work_offset;
       ToolUse use;
       const Word& at = tool != nullptr ? *tool : edge != nullptr ? *edge : module.words[block.words[0]];
       const SourceRange range = module.RangeOf(block, at);
@@ -219,7 +227,8 @@ bool MapTools(const RaiseInput& input, Translation& out, diag::Sink& sink) {
           continue;
         }
       } else if (last_tool.empty()) {
-        sink.Report(diag::Code::kNotExpressible, range, "an edge whose tool is not one here", input.profile->name)
+        sink.Report(diag::Code::kNotExpressible, range, "an edge whose tool is not one on every way here",
+                    input.profile->name)
             .help = "an edge is a set of offsets of its tool: write T and D together";
         ok = false;
         continue;
@@ -285,11 +294,17 @@ bool MapTools(const RaiseInput& input, Translation& out, diag::Sink& sink) {
       module.blocks[id].label = {};
       module.blocks[id].number = Block::kNoNumber;
       editor.InsertBefore(id, made);
-      if (lathe && work_offset != 0 && tool != nullptr) {
+      if (lathe && selects && !work_offset.known && tool != nullptr && flow.Reached(program, id)) {
+        // The tool word may drop the offset, and behind it the one in force is written again.
+        sink.Report(diag::Code::kUnknownModalState, range, "the work offset", "it is written again behind a tool call")
+            .help = "write the work offset (G54) behind the tool call";
+        ok = false;
+      }
+      if (lathe && work_offset.known && work_offset.number != 0 && tool != nullptr) {
         Word offset;
         offset.op = WordOp::kWorkOffset;
         offset.phase = ir::DefaultPhaseOf(WordOp::kWorkOffset);
-        offset.extra = work_offset;
+        offset.extra = work_offset.number;
         Block again = editor.MakeBlock(id);
         again.flags = Block::kAdded;
         editor.SetWords(again, {offset});

@@ -133,6 +133,9 @@ TEST_CASE("wrong lines are named with place and remedy") {
   CHECK(Reading("[check]\nignore = [\"NC0007\"]\n").First() ==
         "2 NC2102 check.ignore is text \"NC0007\" where a code such as \"NC2007\" that exists is needed");
   CHECK(Reading("[ranges]\nR1 = [5, 1]\n").First() == "2 NC2102 ranges.R1 is a list where [least, most] is needed");
+  CHECK(
+      Reading("[ranges]\nR1 = [5, \"1+R2\"]\n").First() ==
+      "2 NC2102 ranges.R1 is a list where [least, most], each a number or another input such as \"EXTD-1\", is needed");
   CHECK(Reading("[limits]\nspindel = 5\n").First() == "2 NC2101 unknown key limits.spindel | did you mean spindle?");
   CHECK(Reading("[limits]\nfeed = -5\n").First() ==
         "2 NC2102 limits.feed is number -5 where a number above 0 is needed");

@@ -1,0 +1,51 @@
+#include "ir/transform/resolve_axes.h"
+
+#include <optional>
+
+namespace ncport::ir::transform {
+
+namespace {
+
+std::optional<std::uint8_t> AxisOf(const Module& module, ExprId id, Plane plane) {
+  const Expr& expr = module.exprs[id];
+  switch (expr.op) {
+    case ExprOp::kGroup:
+    case ExprOp::kConvert:
+      return AxisOf(module, ExprId{expr.a}, plane);
+    case ExprOp::kAxisName:
+      return static_cast<std::uint8_t>(expr.a);
+    case ExprOp::kSystem: {
+      const System& system = module.systems[SystemId{expr.a}];
+      if (system.kind != SystemKind::kPlaneAxis || plane == Plane::kUnknown) return std::nullopt;
+      // First, second, normal axis: XY-Z, ZX-Y, YZ-X.
+      static constexpr std::uint8_t kAxes[3][3] = {{0, 1, 2}, {2, 0, 1}, {1, 2, 0}};
+      const auto row = static_cast<std::size_t>(plane) - static_cast<std::size_t>(Plane::kXY);
+      const std::size_t column = system.number == 1 ? 0 : system.number == 2 ? 1 : 2;
+      return kAxes[row][column];
+    }
+    default:
+      return std::nullopt;
+  }
+}
+
+}  // namespace
+
+void ResolveAxes(Module& module, const analysis::ModalFlow& flow) {
+  for (const ProgramId program : module.programs.Ids()) {
+    for (const BlockId id : module.programs[program].blocks) {
+      for (const WordId word_id : module.blocks[id].words) {
+        const Word word = module.words[word_id];
+        if (word.op != WordOp::kAxisComputed) continue;
+        const auto axis = AxisOf(module, word.Extra<ExprId>(), flow.At(program, id).plane);
+        if (!axis) continue;
+        Word& plain = module.words[word_id];
+        plain.op = WordOp::kAxis;
+        plain.index = *axis;
+        plain.extra = Id<void>::kNone;
+        plain.spelling = 0;
+      }
+    }
+  }
+}
+
+}  // namespace ncport::ir::transform

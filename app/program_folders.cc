@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <system_error>
@@ -32,11 +33,18 @@ std::string PlainName(std::string_view program) {
   return name;
 }
 
-/// "o4001" -> "4001"; empty: not a number.
-std::string NumberOf(std::string_view name) {
-  if (name.starts_with('o')) name.remove_prefix(1);
-  const bool digits = !name.empty() && name.find_first_not_of("0123456789") == std::string_view::npos;
-  return digits ? std::string(name) : std::string();
+/// The program number that a file name of a numbered language gives: O9810, O9810.NC, O09810_NAME.nc, 9250-Name.nc,
+/// 4001.EIA (real-programs, Text). Endings of languages with names are none of it.
+std::optional<std::uint32_t> NumberOf(std::string_view lower_name) {
+  if (lower_name.ends_with(".spf") || lower_name.ends_with(".mpf") || lower_name.ends_with(".toml"))
+    return std::nullopt;
+  if (lower_name.starts_with('o')) lower_name.remove_prefix(1);
+  std::uint32_t number = 0;
+  const auto [end, error] = std::from_chars(lower_name.data(), lower_name.data() + lower_name.size(), number);
+  if (error != std::errc{}) return std::nullopt;
+  const std::string_view rest = lower_name.substr(static_cast<std::size_t>(end - lower_name.data()));
+  const bool ends = rest.empty() || std::string_view("._-( ").find(rest.front()) != std::string_view::npos;
+  return ends ? std::optional(number) : std::nullopt;
 }
 
 }  // namespace
@@ -46,12 +54,21 @@ void ProgramFolders::ReadFolders() {
   namespace fs = std::filesystem;
   for (const std::string& folder : folders_) {
     Files& files = files_.emplace_back();
+    std::map<std::uint32_t, std::string>& numbers = numbers_.emplace_back();
     std::error_code failed;
     for (fs::directory_iterator it(folder, failed), end; !failed && it != end; it.increment(failed)) {
       std::string name = it->path().filename().string();
       // Two names that differ in case only: the first in the order of characters, so that a run does not depend on the
       // disk.
-      const auto [entry, added] = files.emplace(Lower(name), name);
+      const std::string lower = Lower(name);
+      if (const auto number = NumberOf(lower)) {
+        // Two files of one number: the shorter name is the plainer one, then the order of characters decides.
+        const auto [known, fresh] = numbers.emplace(*number, name);
+        const bool plainer =
+            name.size() != known->second.size() ? name.size() < known->second.size() : name < known->second;
+        if (!fresh && plainer) known->second = name;
+      }
+      const auto [entry, added] = files.emplace(lower, name);
       if (!added && name < entry->second) entry->second = name;
     }
     if (failed && error_.empty()) error_ = fmt::format("cannot read folder {}: {}", folder, failed.message());
@@ -61,27 +78,29 @@ void ProgramFolders::ReadFolders() {
 std::optional<Input> ProgramFolders::Find(std::string_view program) {
   if (!read_) ReadFolders();
   const std::string name = PlainName(program);
-  std::vector<std::string> wanted{name + ".spf", name + ".mpf"};
-  // A number is the name of its file, with or without the O: O4001 is 4001.EIA on Mazak (mazak-lathe-1), O4001.NC
-  // elsewhere.
-  if (const std::string digits = NumberOf(name); !digits.empty()) {
-    for (const char* ending : {".eia", ".nc", ""}) {
-      wanted.push_back(digits + ending);
-      wanted.push_back("o" + digits + ending);
-    }
-  }
+  const std::string_view digits = name.starts_with('o') ? std::string_view(name).substr(1) : std::string_view(name);
+  const bool numbered = !digits.empty() && digits.find_first_not_of("0123456789") == std::string_view::npos;
+  const std::optional<std::uint32_t> number = numbered ? NumberOf(name) : std::nullopt;
+  const auto read = [&](std::size_t folder, const std::string& file) -> std::optional<Input> {
+    std::string path = folders_[folder];
+    if (!path.ends_with('/')) path += '/';
+    path += file;
+    std::string error;
+    std::optional<std::string> bytes = ReadBytes(path, error);
+    if (bytes) return Input{path, *std::move(bytes)};
+    if (error_.empty()) error_ = error;
+    return std::nullopt;
+  };
   for (std::size_t i = 0; i < files_.size(); ++i) {
-    for (const std::string& file : wanted) {
-      const auto found = files_[i].find(file);
+    for (const char* ending : {".spf", ".mpf"}) {
+      const auto found = files_[i].find(name + ending);
       if (found == files_[i].end()) continue;
-      std::string path = folders_[i];
-      if (!path.ends_with('/')) path += '/';
-      path += found->second;
-      std::string error;
-      std::optional<std::string> bytes = ReadBytes(path, error);
-      if (bytes) return Input{path, *std::move(bytes)};
-      if (error_.empty()) error_ = error;
+      if (auto input = read(i, found->second)) return input;
     }
+    if (!number) continue;
+    const auto found = numbers_[i].find(*number);
+    if (found == numbers_[i].end()) continue;
+    if (auto input = read(i, found->second)) return input;
   }
   return std::nullopt;
 }

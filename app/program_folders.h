@@ -2,6 +2,7 @@
 // none.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -16,9 +17,9 @@ class ProgramFolders {
  public:
   explicit ProgramFolders(std::vector<std::string> folders) : folders_(std::move(folders)) {}
 
-  /// The file of this program: in each folder in turn NAME.SPF, then NAME.MPF (sinumerik card, 7.3). Marks around the
-  /// name
-  /// (`_N_RING_SPF`) and a path before it are left out.
+  /// The file of this program: in each folder in turn NAME.SPF, then NAME.MPF (sinumerik card, 7.3), then for a number
+  /// (O9810, 9810) a file that carries it: O9810, O9810.NC, O09810_NAME.nc, 9250-Name.nc, 4001.EIA. Marks around the
+  /// name (`_N_RING_SPF`) and a path before it are left out.
   std::optional<Input> Find(std::string_view program);
   /// A folder that could not be read, or a file that could not be; empty: none.
   [[nodiscard]] const std::string& Error() const { return error_; }
@@ -28,7 +29,8 @@ class ProgramFolders {
   void ReadFolders();
 
   std::vector<std::string> folders_;
-  std::vector<Files> files_;  // beside folders_
+  std::vector<Files> files_;                                   // beside folders_
+  std::vector<std::map<std::uint32_t, std::string>> numbers_;  // beside folders_: program number -> name as it stands
   bool read_ = false;
   std::string error_;
 };

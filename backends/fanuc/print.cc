@@ -324,6 +324,10 @@ void Printer::PrintWord(const Word& word, const Block& block) {
     case WordOp::kComputedM:
     case WordOp::kComputedG:
       return PrintAddress(word);
+    case WordOp::kChamfer:
+      Blank();
+      out_.Append(word.index == static_cast<std::uint8_t>(ir::ChamferKind::kRound) ? ",R" : ",C");
+      return exprs_.WordValue(word.value, NumberPlace::kWord);
     case WordOp::kLengthOffset:
       return word.value.Valid() ? PrintAddress(word) : PrintCode(word);
     default:

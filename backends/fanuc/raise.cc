@@ -9,8 +9,10 @@
 #include <string>
 #include <string_view>
 
+#include "backends/fanuc/corners.h"
 #include "backends/fanuc/frame_blocks.h"
 #include "backends/fanuc/limit_nesting.h"
+#include "backends/fanuc/mazak_lathe_rules.h"
 #include "backends/fanuc/mill_tools.h"
 #include "backends/fanuc/raise_words.h"
 #include "backends/fanuc/shifts.h"
@@ -171,6 +173,7 @@ bool CheckLegal(const RaiseInput& input, Translation& out, diag::Sink& sink) {
           case WordOp::kSpeed:
           case WordOp::kRadiusOffset:
           case WordOp::kAux:
+          case WordOp::kChamfer:  // MapCorners left those only that the target has
             break;
           case WordOp::kSpeedLimit:
             need(profile.spindle.limit, word);
@@ -289,6 +292,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   }
   if (!ok) return false;
   // While the source's modes still stand in the blocks: words that name what the target must be told.
+  ok = MapCorners(input, out, sink) && ok;
   NameMotions(input, out);
   ok = ArrangeSpindle(input, out, sink) && ok;
   ok = (profile.IsLathe() ? MapTools(input, out, sink) : MapMillTools(input, out, sink)) && ok;
@@ -327,7 +331,9 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
     FrameToolChanges(input, out);
     FrameMainPrograms(input, out);
   }
-  return CheckLegal(input, out, sink) && ok && framed;
+  ok = CheckLegal(input, out, sink) && ok && framed;
+  if (ok && IsMazakLathe(profile)) ok = CheckMazakLathe(input, out, sink);
+  return ok;
 }
 
 }  // namespace ncport::backends::fanuc

@@ -35,6 +35,33 @@ TEST_CASE("called programs are found whatever the case of their file names") {
   CHECK(gone.Error().find("cannot read folder") == 0);
 }
 
+TEST_CASE("programs by number are found under the file names of real folders (real-programs, Text)") {
+  char name[] = "/tmp/ncport-folders-XXXXXX";
+  const std::string folder = mkdtemp(name);
+  const auto write = [&](const char* file, const char* text) { std::ofstream(folder + "/" + file) << text; };
+  write("O9810", "plain");
+  write("O9811.NC", "ending");
+  write("O09812_NAME.nc", "long");
+  write("9250-Name.nc", "dash");
+  write("4001.EIA", "mazak");
+  write("O9813.NC", "b");
+  write("O9813_OLD.NC", "a");
+  write("O98.14.toml", "no program");
+  write("9815x.nc", "another name");
+  ProgramFolders folders({folder});
+  CHECK(folders.Find("9810")->bytes == "plain");
+  CHECK(folders.Find("O9810")->bytes == "plain");
+  CHECK(folders.Find("o09811")->bytes == "ending");
+  CHECK(folders.Find("9812")->bytes == "long");
+  CHECK(folders.Find("9250")->bytes == "dash");
+  CHECK(folders.Find("4001")->bytes == "mazak");
+  CHECK(folders.Find("9813")->bytes == "b");  // the plainer name
+  CHECK(!folders.Find("98"));
+  CHECK(!folders.Find("9815"));
+  CHECK(!folders.Find("NAME"));
+  std::filesystem::remove_all(folder);
+}
+
 TEST_CASE("a file that cannot be read has a reason") {
   std::string error;
   CHECK(!ReadBytes("/no/such/file", error));

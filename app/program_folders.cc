@@ -80,7 +80,7 @@ std::optional<Input> ProgramFolders::Find(std::string_view program) {
   const std::string name = PlainName(program);
   const std::string_view digits = name.starts_with('o') ? std::string_view(name).substr(1) : std::string_view(name);
   const bool numbered = !digits.empty() && digits.find_first_not_of("0123456789") == std::string_view::npos;
-  const std::optional<std::uint32_t> number = numbered ? NumberOf(name) : std::nullopt;
+  const std::uint32_t number = numbered ? NumberOf(name).value_or(0) : 0;  // 0 is no program number
   const auto read = [&](std::size_t folder, const std::string& file) -> std::optional<Input> {
     std::string path = folders_[folder];
     if (!path.ends_with('/')) path += '/';
@@ -97,8 +97,8 @@ std::optional<Input> ProgramFolders::Find(std::string_view program) {
       if (found == files_[i].end()) continue;
       if (auto input = read(i, found->second)) return input;
     }
-    if (!number) continue;
-    const auto found = numbers_[i].find(*number);
+    if (number == 0) continue;
+    const auto found = numbers_[i].find(number);
     if (found == numbers_[i].end()) continue;
     if (auto input = read(i, found->second)) return input;
   }

@@ -125,42 +125,37 @@ std::vector<std::string> SafetyLines(const RaiseInput& input, bool calls_tools) 
   return lines;
 }
 
-/// The modes that the programs take over from the start of the source: a feed or a plane that is in force at a motion
-/// without a word of theirs. The words of a header that say otherwise become those.
-void StartAsSource(const RaiseInput& input, const Module& module, std::vector<std::string>& head) {
+/// The plane that the programs take over from the start of the source: one that is in force at a motion without a word
+/// of theirs. A word of the header that says otherwise becomes that one.
+void PlaneOfSource(const RaiseInput& input, const Module& module, std::vector<std::string>& head) {
   const auto system = *dialects::fanuc::SystemOf(*input.profile);
   const ir::ModalState& start = input.source_machine->start;
   const ir::analysis::FlowGraphs graphs(module);
   const ir::analysis::CallGraph calls(module);
   const ir::analysis::ModalFlow flow(module, *input.source_machine, graphs, calls, {});
-  bool feed = false, plane = false;
+  bool plane = false;
   for (const ir::ProgramId program : module.programs.Ids()) {
     for (const BlockId id : module.programs[program].blocks) {
       bool moves = false;
       for (const ir::WordId word : module.blocks[id].words) {
         const WordOp op = module.words[word].op;
-        moves = moves || op == WordOp::kAxis || op == WordOp::kCenter || op == WordOp::kRadius || op == WordOp::kFeed;
+        moves = moves || op == WordOp::kAxis || op == WordOp::kCenter || op == WordOp::kRadius;
       }
       if (!moves || !flow.Reached(program, id)) continue;
-      const ir::ModalState state = flow.At(program, id);
-      feed = feed || state.feed_mode == ir::FeedMode::kUnknown;
-      plane = plane || state.plane == ir::Plane::kUnknown;
+      plane = plane || flow.At(program, id).plane == ir::Plane::kUnknown;
     }
   }
-  const auto say = [&](WordOp op, std::uint8_t wanted, std::uint8_t last) {
-    const dialects::CodeRow* row = dialects::fanuc::Codes(system).FindMeaning(op, wanted);
-    if (wanted == 0 || row == nullptr) return;
-    for (std::string& line : head) {
-      for (std::uint8_t other = 1; other <= last; ++other) {
-        const dialects::CodeRow* old = dialects::fanuc::Codes(system).FindMeaning(op, other);
-        if (old == nullptr || other == wanted) continue;
-        const std::size_t at = (" " + line + " ").find(" " + std::string(old->text) + " ");
-        if (at != std::string::npos) line.replace(at, old->text.size(), row->text);
-      }
-    }
+  const auto code = [&](ir::Plane wanted) {
+    return dialects::fanuc::Codes(system).FindMeaning(WordOp::kPlane, static_cast<std::uint8_t>(wanted));
   };
-  if (feed) say(WordOp::kFeedMode, static_cast<std::uint8_t>(start.feed_mode), 3);
-  if (plane) say(WordOp::kPlane, static_cast<std::uint8_t>(start.plane), 3);
+  if (!plane || start.plane == ir::Plane::kUnknown || code(start.plane) == nullptr) return;
+  for (std::string& line : head) {
+    for (const ir::Plane other : {ir::Plane::kXY, ir::Plane::kZX, ir::Plane::kYZ}) {
+      if (other == start.plane || code(other) == nullptr || !HasWord(line, code(other)->text)) continue;
+      const std::size_t at = (" " + line + " ").find(" " + std::string(code(other)->text) + " ");
+      line.replace(at, code(other)->text.size(), code(start.plane)->text);
+    }
+  }
 }
 
 }  // namespace
@@ -197,7 +192,7 @@ void FrameMainPrograms(const RaiseInput& input, Translation& out) {
   if (head.empty()) {
     head = SafetyLines(input, !out.tools.empty());
   } else {
-    StartAsSource(input, module, head);
+    PlaneOfSource(input, module, head);
   }
   // The feed mode that the source starts with, where the head ends in another one (mazak-lathe-10.3: G94 for the way
   // out, then G95).

@@ -593,14 +593,6 @@ Comparison Comparer::Run() {
       Fail(a, nullptr, "the target ends before the source");
       break;
     }
-    // The head of the target selected the offset before the program does: a repeated state is no event. Each motion
-    // compares what is in force.
-    if (a->kind == EventKind::kWorkOffset && b->kind != EventKind::kWorkOffset && target_.Now().wcs_known) {
-      CompareWorkOffset(*a, *b, a->number, a->extension, target_.Now().wcs, target_.Now().wcs_extension);
-      ++result_.events_compared;
-      source_.Advance();
-      continue;
-    }
     ComparePair(*a, *b);
     ++result_.events_compared;
     source_.Advance();

@@ -305,17 +305,22 @@ prove::Verification CompareTranslation(Context& context, const ProgramSet& sourc
     return result;
   }
   Binder binder(source, translation, module, config);
-  std::vector<prove::BoundInput> bound = binder.Arguments(entry);
+  std::vector<prove::BoundInput> bound;
+  if (setup.vary_inputs) bound = binder.Arguments(entry);
   binder.Cells(entry, source_machine, bound);
   if (!binder.Relate(bound, context.findings)) {
     result.not_compared = "a range refers to an input that does not exist";
     return result;
+  }
+  if (!setup.vary_inputs) {
+    for (prove::BoundInput& input : bound) input.input.low = input.input.high = 0;
   }
   for (const prove::BoundInput& input : bound) inputs.push_back(input.input);
 
   prove::VerifyOptions options;
   options.runs = setup.runs;
   options.seed = setup.seed;
+  if (!setup.vary_inputs) options.runs = options.least_runs = 1;
   options.max_blocks = setup.max_blocks;
   options.poison_distance = !target.words.absolute.Or("").empty();
   options.compare.source = PrecisionOf(source.profile, source_machine);

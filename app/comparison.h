@@ -14,6 +14,7 @@ struct ComparisonSetup {
   std::uint32_t runs = 200;
   std::uint64_t seed = 1;
   std::uint64_t max_blocks = 10'000'000;
+  bool vary_inputs = true;  // false: one set: arguments as written, cells that nothing wrote 0
 };
 
 /// Findings of reading the output back are bugs of the writer and are reported as such (NC7002).

@@ -485,9 +485,68 @@ void Comparer::CompareEnds(const Event& a, const Event& b) {
   }
 }
 
+static std::string_view KindName(EventKind kind) {
+  switch (kind) {
+    case EventKind::kRapid:
+      return "a rapid move";
+    case EventKind::kLine:
+      return "a straight feed move";
+    case EventKind::kArc:
+      return "an arc";
+    case EventKind::kThread:
+      return "a thread";
+    case EventKind::kTap:
+      return "tapping";
+    case EventKind::kRapidMachine:
+      return "a move in machine coordinates";
+    case EventKind::kReference:
+      return "a reference point approach";
+    case EventKind::kProbe:
+      return "probing";
+    case EventKind::kDwell:
+      return "a dwell";
+    case EventKind::kSpindle:
+      return "a spindle start or stop";
+    case EventKind::kSpindleSpeed:
+      return "a spindle speed";
+    case EventKind::kSpindleSurface:
+      return "a surface speed";
+    case EventKind::kSpindleLimit:
+      return "a speed limit";
+    case EventKind::kSpindlePosition:
+      return "a spindle position";
+    case EventKind::kTool:
+      return "a tool";
+    case EventKind::kOffset:
+      return "a tool offset";
+    case EventKind::kComp:
+      return "cutter compensation";
+    case EventKind::kWorkOffset:
+      return "a work offset";
+    case EventKind::kPath:
+      return "a path mode";
+    case EventKind::kAux:
+      return "an M function";
+    case EventKind::kMessage:
+      return "a message";
+    case EventKind::kPrint:
+      return "a printed line";
+    case EventKind::kStop:
+    case EventKind::kOptionalStop:
+      return "a stop";
+    case EventKind::kAlarm:
+      return "an alarm";
+    case EventKind::kEnd:
+      return "its end";
+    case EventKind::kSetVariable:
+      return "a final value";
+  }
+  return "an event";
+}
+
 void Comparer::ComparePair(const Event& a, const Event& b) {
   if (a.kind != b.kind) {
-    return Fail(&a, &b, "the two programs do different things here");
+    return Fail(&a, &b, fmt::format("the source has {} here, the target {}", KindName(a.kind), KindName(b.kind)));
   }
   switch (a.kind) {
     case EventKind::kRapid:

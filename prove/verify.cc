@@ -34,7 +34,7 @@ class Stage {
 
   ir::Module module_;
   ir::Machine machine_;
-  const ir::Machine& clean_machine_;
+  ir::Machine clean_machine_;
   std::unique_ptr<exec::Linked> linked_;
   exec::RunOptions options_;
   std::size_t clean_start_values_ = 0;
@@ -45,6 +45,11 @@ class Stage {
 
 Stage::Stage(const Side& side, const std::vector<BoundInput>& inputs, bool source)
     : module_(*side.module), machine_(*side.machine), clean_machine_(*side.machine) {
+  // A start offset of the profile would hide the word that selects it: on either side it is what the operator left. So
+  // it is with the path mode.
+  clean_machine_.start.work_offset = {};
+  clean_machine_.start.path = ir::PathMode::kUnknown;
+  machine_.start = clean_machine_.start;
   options_.entry = side.entry;
   options_.is_call = side.is_call;
   options_.report_variables = true;
@@ -135,13 +140,17 @@ void Stage::Poison(Random& random, const VerifyOptions& options) {
   start.feed_mode = static_cast<ir::FeedMode>(1 + random.Below(2));
   start.speed_mode = static_cast<ir::SpeedMode>(1 + random.Below(2));
   start.units = static_cast<ir::Units>(1 + random.Below(2));
-  start.path = static_cast<ir::PathMode>(1 + random.Below(2));
   start.comp = ir::CutterComp::kOff;
   start.work_offset = {};  // whichever the program before left
   machine_.position_known = false;
   for (const ir::SpaceId space : options.garbage) {
     const ir::Space& cells = module_.spaces[space];
     for (std::uint32_t cell = std::max(cells.first, 1U); cell <= cells.last && cell < cells.first + 1000; ++cell) {
+      // A cell that is an input of the program has its value.
+      const auto end = options_.start_values.begin() + static_cast<std::ptrdiff_t>(clean_start_values_);
+      if (std::any_of(options_.start_values.begin(), end,
+                      [&](const exec::StartValue& known) { return known.space == space && known.cell == cell; }))
+        continue;
       exec::StartValue value;
       value.space = space;
       value.cell = cell;

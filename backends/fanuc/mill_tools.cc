@@ -450,6 +450,10 @@ void Mapper::Rewrite(ProgramId program) {
     if (before.told == Selection::kNever)
       before = {Selection::kMixed, Selection::kMixed, Selection::kMixed, Selection::kYes};
     const Selection now = Select(words, before);
+    if (words.tool != nullptr && words.edge != nullptr && !tool_word_changes_ && !words.change)
+      Refuse(module_.RangeOf(block, *words.edge), "an edge named before the M6 that brings its tool in",
+             "write D in the block of M6 or behind it: whether it counts from T or from M6 on is a setting of the "
+             "machine");
     std::string call;  // words of a tool call
     if (words.tool != nullptr || words.change) {
       const SourceRange at = words.tool != nullptr ? module_.RangeOf(block, *words.tool) : module_.RangeOf(block);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <set>
 #include <string>
 #include <string_view>
@@ -16,9 +17,12 @@
 #include "backends/fanuc/mill_tools.h"
 #include "backends/fanuc/raise_words.h"
 #include "backends/fanuc/shifts.h"
+#include "backends/fanuc/source_meanings.h"
+#include "backends/fanuc/thread_leads.h"
 #include "backends/fanuc/turning_offsets.h"
 #include "dialects/fanuc/words.h"
 #include "ir/transform/absolute_dimensions.h"
+#include "ir/transform/linear_form.h"
 #include "ir/transform/lower_expressions.h"
 #include "ir/transform/names_to_numbers.h"
 #include "ir/transform/resolve_axes.h"
@@ -128,6 +132,38 @@ bool NamePrograms(const RaiseInput& input, const SplitResult& split, Translation
   return ok;
 }
 
+/// Is there a function whose result depends on fanuc.atan-range?
+bool HasAngleRange(const Module& module, ir::ExprId id) {
+  if (!id.Valid()) return false;
+  const ir::Expr& expr = module.exprs[id];
+  switch (ir::OperandsOf(expr.op)) {
+    case ir::Operands::kLeaf:
+      return false;
+    case ir::Operands::kUnary:
+      return HasAngleRange(module, ir::ExprId{expr.a});
+    case ir::Operands::kBinary:
+      return HasAngleRange(module, ir::ExprId{expr.a}) || HasAngleRange(module, ir::ExprId{expr.b});
+    case ir::Operands::kList:
+      if (expr.op == ir::ExprOp::kFunction) {
+        const auto* row = dialects::fanuc::FindFunction(static_cast<ir::Function>(expr.a));
+        if (row != nullptr && row->angle_range) return true;
+      }
+      for (std::uint32_t i = 0; i < expr.count; ++i) {
+        if (HasAngleRange(module, module.Item(expr.b + i))) return true;
+      }
+      return false;
+  }
+  return false;
+}
+
+/// Without brackets and conversions that change nothing.
+ir::ExprId BareValue(const Module& module, ir::ExprId id) {
+  while (module.exprs[id].op == ir::ExprOp::kGroup || module.exprs[id].op == ir::ExprOp::kPlus ||
+         module.exprs[id].op == ir::ExprOp::kConvert)
+    id = ir::ExprId{module.exprs[id].a};
+  return id;
+}
+
 /// What is left must have a form in the target.
 bool CheckLegal(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   const Module& module = out.module;
@@ -155,6 +191,31 @@ bool CheckLegal(const RaiseInput& input, Translation& out, diag::Sink& sink) {
       }
       for (const ir::WordId word_id : block.words) {
         const Word& word = module.words[word_id];
+        const auto values = [&](ir::ExprId value) {
+          VisitReads(module, value, [&](ir::ExprId read) {
+            const ir::Expr& expr = module.exprs[read];
+            if (expr.op != ir::ExprOp::kSystem) return;
+            refuse(word, module.View(module.systems[ir::SystemId{expr.a}].name));
+          });
+          // The range of an angle is a setting.
+          if (HasAngleRange(module, value)) need(profile.fanuc.atan_range, word);
+        };
+        values(word.value);
+        if (word.op == WordOp::kAssign) values(word.Extra<ir::ExprId>());
+        if ((word.op == WordOp::kCall || word.op == WordOp::kModalCall) && word.Extra<ir::CallId>().Valid()) {
+          values(module.calls[word.Extra<ir::CallId>()].passes);
+          for (const ir::ArgId arg : module.calls[word.Extra<ir::CallId>()].args) values(module.args[arg].value);
+        }
+        const bool whole_only = word.op == WordOp::kSpeed || word.op == WordOp::kRadiusOffset ||
+                                word.op == WordOp::kLengthOffset || word.op == WordOp::kAux;
+        if (whole_only && word.value.Valid()) {
+          const ir::Expr& value = module.exprs[BareValue(module, word.value)];
+          if (value.op == ir::ExprOp::kLiteral && value.number != std::floor(value.number)) {
+            ok = false;
+            sink.Report(diag::Code::kWordTooCoarse, module.RangeOf(block, word), fmt::format("{:g}", value.number),
+                        "whole number");
+          }
+        }
         const auto named = [&] {
           return word.spelling != 0 ? std::string(module.View(module.spellings[word.spelling].text))
                                     : std::string(ir::NameOf(word.op));
@@ -235,6 +296,13 @@ bool CheckLegal(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   return ok;
 }
 
+bool Has(const Module& module, const ir::Block& block, WordOp op) {
+  for (const ir::WordId id : block.words) {
+    if (module.words[id].op == op) return true;
+  }
+  return false;
+}
+
 /// Modes that a target without words for them has always: the words go.
 void DropForeignModes(const RaiseInput& input, Translation& out) {
   Module& module = out.module;
@@ -247,6 +315,9 @@ void DropForeignModes(const RaiseInput& input, Translation& out) {
         const Word word = module.words[word_id];
         // Exact stop and path control are a listed loss where the target has no word (contracts section 3).
         const bool path = word.op == WordOp::kPathMode || word.op == WordOp::kExactOnce;
+        // The code of a dwell: the target's words for the seconds have their own.
+        if (word.op == WordOp::kInert && word.phase == ir::Phase::kMotion && Has(module, block, WordOp::kDwellSeconds))
+          continue;
         const bool known = dialects::fanuc::Codes(system).FindMeaning(word.op, word.index) != nullptr;
         if (path && !known) {
           out.path_lost = true;
@@ -281,7 +352,11 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
     ResolveAxes(module, ir::analysis::ModalFlow(module, machine, graphs, calls, {machine.start, entry}));
   }
   TextsToComments(input, out, sink);
+  EndsToReturns(input, module);
+  PiToNumber(module);
+  if (!ShiftSkipLevels(input, module, sink)) return false;
   bool ok = RefuseInputs(input, out, sink);
+  ok = RefuseRepeatedCalls(input, module, sink) && ok;
   ok = SaveToRestores(module, machine, entry, sink) && ok;
   for (const ir::ProgramId program : module.programs.Ids()) SplitStatements(module, program);
   // Programs are split before positions are followed: a position does not cross a tool change.
@@ -302,6 +377,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   dimensions.diameter_axis = profile.diameter.Is(dialects::DiameterRule::kYes) ? 0 : 0xFF;
   dimensions.sub_entry = entry;
   ok = AbsoluteDimensions(module, machine, dimensions, sink) && ok;
+  ok = ThreadLeads(input, out, sink) && ok;
   ok = NameTurningOffsets(input, out, sink) && ok;
   ok = MapWorkOffsets(input, out, sink) && ok;
   ok = MapAuxiliaries(input, out, sink) && ok;

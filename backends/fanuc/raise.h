@@ -15,6 +15,7 @@ struct RaiseInput {
   const ir::Machine* source_machine = nullptr;
   const dialects::Profile* profile = nullptr;  // of the target
   const dialects::Config* config = nullptr;
+  const dialects::Profile* source_profile = nullptr;
 };
 
 /// What cannot be said is a finding (NC6xxx) at its place, several per run; returns false then.

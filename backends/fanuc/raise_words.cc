@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "backends/fanuc/message_text.h"
 #include "backends/fanuc/tool_flow.h"
@@ -485,6 +486,10 @@ bool ArrangeSpindle(const RaiseInput& input, Translation& out, diag::Sink& sink)
       const auto insert = [&](const std::vector<Word>& words) {
         Block made = editor.MakeBlock(id);
         made.skip_level = block.skip_level;
+        // Jumps to the block lead to what is put in front of it.
+        made.label = std::exchange(module.blocks[id].label, StringId{});
+        made.number = std::exchange(module.blocks[id].number, Block::kNoNumber);
+        made.number_digits = block.number_digits;
         editor.SetWords(made, words);
         editor.InsertBefore(id, made);
       };
@@ -492,7 +497,7 @@ bool ArrangeSpindle(const RaiseInput& input, Translation& out, diag::Sink& sink)
       if (!limit.empty()) insert(limit);
       const bool alone = rest.empty();
       if (alone) {
-        Block changed = block;
+        Block changed = module.blocks[id];
         editor.SetWords(changed, spindle);
         module.blocks[id].words = changed.words;
         if (spindle.empty()) editor.Remove(id);
@@ -502,16 +507,16 @@ bool ArrangeSpindle(const RaiseInput& input, Translation& out, diag::Sink& sink)
       editor.SetWords(changed, rest);
       module.blocks[id].words = changed.words;
       if (!spindle.empty()) {
-        Block made = editor.MakeBlock(id);
-        made.skip_level = block.skip_level;
-        editor.SetWords(made, spindle);
         // Words before the motion stand in front of it, M5 behind.
         const bool stops = std::all_of(spindle.begin(), spindle.end(),
                                        [](const Word& word) { return word.phase == ir::Phase::kAfter; });
         if (stops) {
+          Block made = editor.MakeBlock(id);
+          made.skip_level = block.skip_level;
+          editor.SetWords(made, spindle);
           editor.InsertAfter(id, made);
         } else {
-          editor.InsertBefore(id, made);
+          insert(spindle);
         }
       }
     }

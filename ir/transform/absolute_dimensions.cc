@@ -24,6 +24,7 @@ namespace ncport::ir::transform {
 namespace {
 
 constexpr double kInch = 25.4;
+constexpr double kFoot = 0.3048;  // ft/min in m/min
 constexpr std::string_view kAxisNames = "XYZABCUVW";
 
 /// Where an axis stands on arrival at a block.
@@ -89,6 +90,7 @@ class Pass {
   void Save(BlockId block, std::uint8_t axis, Position& position, bool before, bool emit);
   void RewriteWords(BlockId block, const Positions& in);
   void RewriteCenters(BlockId block, const Positions& in);
+  void RewriteMachineWords(BlockId block);
   void DropModeWords();
   void Unknown(BlockId block, const Word& word, std::uint8_t axis);
   [[nodiscard]] bool ReadsPlace(const LinearForm& form, ExprId place) const;
@@ -562,6 +564,15 @@ void Pass::RewriteCenters(BlockId id, const Positions& in) {
       word.value = Scaled(word.value, UnitFactor(state));
     } else if (word.op == WordOp::kFeed && state.units == Units::kInch && state.feed_mode != FeedMode::kInverseTime) {
       word.value = Scaled(word.value, kInch);
+    } else if (word.op == WordOp::kSpeed && state.units == Units::kInch &&
+               state.speed_mode == SpeedMode::kConstantSurface) {
+      // A number is checked where it is printed; a computed one would be rounded to whole m/min unseen.
+      if (!FormOf(module_, word.value).IsConstant()) {
+        ok_ = false;
+        sink_.Report(diag::Code::kNotExpressible, module_.RangeOf(module_.blocks[id], word),
+                     "a computed surface speed in ft/min", "whole m/min");
+      }
+      word.value = Scaled(word.value, kFoot);
     } else if (word.op == WordOp::kCenter) {
       // From the start point; a target's centre words are radius values on every axis.
       const std::uint8_t axis = word.index;
@@ -581,7 +592,25 @@ void Pass::RewriteCenters(BlockId id, const Positions& in) {
   }
 }
 
+/// Machine coordinates are absolute whatever the distance mode; their unit and diameters are those of the block.
+void Pass::RewriteMachineWords(BlockId id) {
+  const ModalState state = flow_.At(program_, id);
+  for (const WordId word_id : module_.blocks[id].words) {
+    Word word = module_.words[word_id];
+    if (word.op != WordOp::kAxis) continue;
+    const Scale scale = ScaleOf(word, word.index, state, id, true);
+    if (!scale.known) continue;
+    if (scale.incremental) {
+      Unknown(id, word, word.index);
+      continue;
+    }
+    word.value = Scaled(word.value, scale.factor);
+    rewritten_.emplace_back(word_id, word);
+  }
+}
+
 void Pass::RewriteWords(BlockId id, const Positions& in) {
+  if (Has(module_, module_.blocks[id], WordOp::kMachineCoords)) return RewriteMachineWords(id);
   if (!AxisWordsAreMoves(module_, module_.blocks[id])) return;
   RewriteCenters(id, in);
   const ModalState state = flow_.At(program_, id);

@@ -17,6 +17,25 @@ namespace ncport::ir::transform {
 
 namespace {
 
+bool HasFunction(const Module& module, ExprId id, Function function) {
+  const Expr& expr = module.exprs[id];
+  switch (OperandsOf(expr.op)) {
+    case Operands::kLeaf:
+      return false;
+    case Operands::kUnary:
+      return HasFunction(module, ExprId{expr.a}, function);
+    case Operands::kBinary:
+      return HasFunction(module, ExprId{expr.a}, function) || HasFunction(module, ExprId{expr.b}, function);
+    case Operands::kList:
+      if (expr.op == ExprOp::kFunction && static_cast<Function>(expr.a) == function) return true;
+      for (std::uint32_t i = 0; i < expr.count; ++i) {
+        if (HasFunction(module, module.Item(expr.b + i), function)) return true;
+      }
+      return false;
+  }
+  return false;
+}
+
 class Lowering {
  public:
   Lowering(Module& module, ProgramId program, const LowerExpressionsConfig& config, diag::Sink& sink)
@@ -46,6 +65,7 @@ class Lowering {
   ExprId ValueOfFunction(const Expr& expr);
   ExprId Truth(ExprId condition);
   ExprId Simple(ExprId value, std::string_view name);
+  ExprId WordValue(ExprId value);
   /// An index or an element of a place that is written: its inside is a value.
   ExprId Place(ExprId id);
   ExprId List(const Expr& expr);
@@ -79,7 +99,8 @@ void Lowering::Statement(WordOp op, ExprId value, std::uint32_t extra) {
   word.value = value;
   word.extra = extra;
   Block made = editor_.MakeBlock(block_);
-  made.skip_level = IsStructureMark(op) ? Block::kNoSkip : module_.blocks[block_].skip_level;
+  // A test is left out with its block too: what it divides by may be zero then.
+  made.skip_level = IsStructureMark(op) && op != WordOp::kIf ? Block::kNoSkip : module_.blocks[block_].skip_level;
   editor_.SetWords(made, {word});
   statements_.push_back(made);
 }
@@ -91,6 +112,15 @@ ExprId Lowering::Simple(ExprId value, std::string_view name) {
   if (IsSimplePlace(module_, value)) return value;
   const ExprId held = NewValue(name);
   Assign(held, value);
+  return held;
+}
+
+/// The value of a word: what only statements can say stands in front.
+ExprId Lowering::WordValue(ExprId value) {
+  const ExprId lowered = Value(value);
+  if (config_.round_in_words || !HasFunction(module_, lowered, Function::kRound)) return lowered;
+  const ExprId held = NewValue("ROUNDED");
+  Assign(held, lowered);
   return held;
 }
 
@@ -423,7 +453,7 @@ void Lowering::LowerBlock(BlockId id) {
         for (const ArgId arg : call.args) {
           const ExprId given = module_.args[arg].value;
           if (given.Valid()) {
-            const ExprId lowered = Value(given);
+            const ExprId lowered = WordValue(given);
             module_.args[arg].value = lowered;
           }
         }
@@ -442,7 +472,7 @@ void Lowering::LowerBlock(BlockId id) {
         break;
       }
       default:
-        if (value.Valid() && module_.exprs[value].type != Type::kString) value = Value(value);
+        if (value.Valid() && module_.exprs[value].type != Type::kString) value = WordValue(value);
         break;
     }
     module_.words[word_id].value = value;

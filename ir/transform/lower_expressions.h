@@ -1,7 +1,7 @@
 // Rewrites operations that a target does not have by ones that it has: the integer quotient as a cut quotient, the
-// remainder by its definition, truth values as numbers, functions by a local and a test, a comparison within a tolerance
-// as a difference against a band. What needs statements gets
-// them in front of the block; a WHILE whose condition needs some becomes a LOOP with a jump out of it.
+// remainder by its definition, truth values as numbers, functions by a local and a test, a comparison within a
+// tolerance as a difference against a band. What needs statements gets them in front of the block; a WHILE whose
+// condition needs some becomes a LOOP with a jump out of it.
 //
 // Run after SplitStatements (one statement a block) and before StructureToJumps (it makes IF blocks).
 #pragma once
@@ -24,6 +24,7 @@ struct LowerExpressionsConfig {
   // Machine::compare_tolerance); those of numbers that may be fractions which were computed are written out. 0: none.
   double compare_tolerance = 0;
   bool for_counter_rounds = false;  // the start of a FOR loop is rounded (the source's Machine)
+  bool round_in_words = false;      // ROUND in the value of a word gives a whole number; else it stands in a statement
 };
 
 /// Changes one program. What has no form is a finding (NC6xxx) at its block; returns false then.

@@ -375,6 +375,22 @@ void Lowering::NumberBlocks() {
   }
   std::unordered_set<Place> wanted;
   for (const auto& [jump, place] : jumps_) wanted.insert(place);
+  // A jump does not go to a block that may be skipped: whether a control finds its number then is its own affair.
+  std::vector<Out> split;
+  for (Out& out : out_) {
+    const bool target =
+        std::any_of(out.places.begin(), out.places.end(), [&](Place place) { return wanted.contains(place); });
+    if (target && out.block.skip_level != Block::kNoSkip) {
+      Out& mark = split.emplace_back();
+      mark.block.origin = out.block.origin;
+      mark.block.indent = out.block.indent;
+      mark.block.number = std::exchange(out.block.number, Block::kNoNumber);
+      mark.block.number_digits = out.block.number_digits;
+      mark.places = std::move(out.places);
+    }
+    split.push_back(std::move(out));
+  }
+  out_ = std::move(split);
   std::unordered_map<Place, std::uint32_t> numbers;
   std::uint32_t next = config_.first_number;
   for (Out& out : out_) {
@@ -405,10 +421,12 @@ void Lowering::Finish() {
   if (!repeat_counters_.empty()) {
     std::size_t first = 0;
     const auto is_definition = [](const Out& out) {
-      return std::all_of(out.words.begin(), out.words.end(), [](const Word& word) {
-        return word.op == WordOp::kHeader || word.op == WordOp::kExtern || word.op == WordOp::kDefine ||
-               word.op == WordOp::kFileMark;
-      });
+      // A block that jumps lead to is no part of the head: what stands behind it runs again.
+      return !out.block.label.Valid() && out.block.number == Block::kNoNumber &&
+             std::all_of(out.words.begin(), out.words.end(), [](const Word& word) {
+               return word.op == WordOp::kHeader || word.op == WordOp::kExtern || word.op == WordOp::kDefine ||
+                      word.op == WordOp::kFileMark;
+             });
     };
     while (first < out_.size() && is_definition(out_[first])) ++first;
     std::vector<Out> inserted;
@@ -465,6 +483,7 @@ void Lowering::Finish() {
 bool Lowering::Run() {
   FindKeptLoops();
   for (std::uint32_t i = 0; i < source_.count; ++i) LowerBlock(i);
+  Here(source_.count);  // behind an ENDIF that is the last block
   if (!ok_) return false;
   Finish();
   return ok_;

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "dialects/config.h"
 #include "dialects/profile.h"
 #include "ir/machine.h"
 #include "ir/module.h"
@@ -21,6 +22,8 @@ struct Subject {
   ir::ProgramId main;
   const dialects::Profile* profile = nullptr;
   const ir::Machine* machine = nullptr;
+  const dialects::Profile* target = nullptr;  // of a translation
+  const dialects::Config* config = nullptr;   // shop data of the source for this target
   std::uint64_t max_blocks = 200'000;
 };
 
@@ -42,13 +45,10 @@ struct Direction {
   std::string_view mill, lathe;  // profiles of the source
   Finding (*check)(const Subject& subject, const Direction& direction);
   std::string_view target_mill = {}, target_lathe = {};
-  std::string_view without = {};  // weights for what the target cannot say: "frame=0,..."
+  // Weights for what the target cannot say: "frame-turns=0,...". Programs take the two by turns.
+  std::string_view without[2] = {};
 };
 std::span<const Direction> Directions();
 const Direction* FindDirection(std::string_view name);
-
-/// The reason of a refusal as tests/refusals.txt lists it: the code of the first error.
-/// A code that is not listed there is a failure.
-bool IsListedRefusal(std::string_view code);
 
 }  // namespace ncport::tests::random

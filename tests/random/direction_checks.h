@@ -8,7 +8,11 @@ namespace ncport::tests::random {
 /// Verifies, dumps and reads the dump back, runs both; every run must end by itself.
 Finding CheckIr(const Subject& subject, const Direction& direction);
 
-/// Prints SINUMERIK text and reads it back: it verifies, prints the same text again and does the same.
-Finding CheckSinumerikText(const Subject& subject, const Direction& direction);
+/// Prints text of the program's own language and reads it back: it verifies, prints the same text again and does the
+/// same.
+Finding CheckText(const Subject& subject, const Direction& direction);
+
+/// Translates the program and compares both programs, as `ncport translate --verify` does.
+Finding CheckTranslation(const Subject& subject, const Direction& direction);
 
 }  // namespace ncport::tests::random

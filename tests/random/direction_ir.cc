@@ -57,7 +57,8 @@ Finding CheckIr(const Subject& subject, const Direction& /*direction*/) {
     RunProgram(subject, skips.sets[i], second);
     if (first.text != second.text)
       return {Verdict::kFails, "run twice", FirstDifference(first.text, second.text), dump};
-    const Subject read{&parsed.Value(), subject.main, subject.profile, subject.machine, subject.max_blocks};
+    Subject read = subject;
+    read.module = &parsed.Value();
     RunProgram(read, skips.sets[i], second);
     if (first.text != second.text)
       return {Verdict::kFails, "run of dump", FirstDifference(first.text, second.text), dump};

@@ -1,58 +1,25 @@
 // The program as text of its own language: printed, read back, run, printed again.
-#include <fmt/format.h>
-
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "backends/sinumerik/print.h"
-#include "base/source_files.h"
-#include "base/text_buffer.h"
-#include "frontend/reader.h"
 #include "ir/verify.h"
 #include "tests/random/direction_checks.h"
 #include "tests/random/runs.h"
+#include "tests/random/texts.h"
 
 namespace ncport::tests::random {
 
-namespace {
+namespace {}  // namespace
 
-struct TextFile {
-  std::string name;
-  std::string text;
-};
-
-std::vector<TextFile> PrintAll(const ir::Module& module, const dialects::Profile& profile) {
-  std::vector<TextFile> texts;
-  for (std::size_t i = 0; i < module.file_names.size(); ++i) {
-    TextBuffer out;
-    backends::sinumerik::PrintFile(module, FileId{i}, profile, out);
-    texts.push_back({std::string(module.View(module.file_names[i])), std::string(out.View())});
-  }
-  return texts;
-}
-
-std::string Listing(const std::vector<TextFile>& texts) {
-  std::string all;
-  for (const TextFile& file : texts) all += fmt::format("--- {}\n{}", file.name, file.text);
-  return all;
-}
-
-}  // namespace
-
-Finding CheckSinumerikText(const Subject& subject, const Direction& /*direction*/) {
+Finding CheckText(const Subject& subject, const Direction& /*direction*/) {
   const ir::Module& module = *subject.module;
   const std::vector<TextFile> texts = PrintAll(module, *subject.profile);
 
   SourceFiles files;
   ir::Module read;
   diag::Sink sink;
-  for (const TextFile& file : texts) {
-    const FileId id = files.Add(file.name, file.text);
-    (void)frontend::ReadFile(files, id, *subject.profile, {}, read, sink);
-  }
-  frontend::ResolveNames(files, read, *subject.profile, sink);
-  if (sink.HasErrors()) return {Verdict::kFails, "read back, " + FirstError(sink), TextOf(sink), Listing(texts)};
+  if (!ReadAll(texts, *subject.profile, files, read, sink))
+    return {Verdict::kFails, "read back, " + FirstError(sink), TextOf(sink), Listing(texts)};
   if (const auto violation = ir::FindViolation(read, {.names_resolved = true, .structure_built = true})) {
     return {Verdict::kFails, "verify what was read", *violation, Listing(texts)};
   }
@@ -64,8 +31,9 @@ Finding CheckSinumerikText(const Subject& subject, const Direction& /*direction*
     }
   }
 
-  const Subject other{&read, read.FindProgram(module.View(module.programs[subject.main].name), true), subject.profile,
-                      subject.machine, subject.max_blocks};
+  Subject other = subject;
+  other.module = &read;
+  other.main = read.FindProgram(module.View(module.programs[subject.main].name), true);
   if (!other.main.Valid()) return {Verdict::kFails, "main program lost", "no program of that name", Listing(texts)};
   const SkipSets skips = SkipSetsOf(module);
   for (std::uint32_t i = 0; i < skips.count; ++i) {

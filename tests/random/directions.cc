@@ -5,6 +5,21 @@ namespace ncport::tests::random {
 
 namespace {
 
+// What FANUC controls have no form for. A tool fixes the plane, since its length lies along Z (first line); other
+// planes come without tools (second line).
+// clang-format off
+#define NCPORT_NO_FANUC \
+  "computed-radius=0,frame=1,tool=1,passes=0,units=1,feed-mode=1,repeat-part=0,edge-before-change=0,feed-across-thread=0," \
+  "dwell-revolutions=0,turns=0,thread-variable=0,block-range=0,modal-call=0,computed-tool=0," \
+  "fractional-speed=0,frame-turns=0,shown-alarm=0,open-speed-mode=0,save-modes=0,spindle-position=0," \
+  "aux-h=0,return-to-label=0,call-by-text=0,computed-axis=0,text-functions=0,tap=0,blind-step=0," \
+  "arc-via=0,arc-tangent=0,polar=0,system-variables=0,feed-once=0,chamfer=0,arc-angle=0,reference=0," \
+  "inert=0,assign-list=0,computed-target=0,reference-parameter=0"
+// clang-format on
+constexpr std::string_view kWithTools = NCPORT_NO_FANUC ",plane=0,frame=0";
+constexpr std::string_view kWithoutTools = NCPORT_NO_FANUC ",tool=0,cutter-comp=0";
+#undef NCPORT_NO_FANUC
+
 constexpr Direction kDirections[] = {
     {.name = "ir",
      .title = "the program as IR: verified, dumped and read back, run twice",
@@ -17,7 +32,25 @@ constexpr Direction kDirections[] = {
      .flavour = Flavour::kSinumerik,
      .mill = "sinumerik-840d-mill",
      .lathe = "sinumerik-840d-lathe",
-     .check = CheckSinumerikText},
+     .check = CheckText},
+    {.name = "sinumerik-to-fanuc",
+     .title = "SINUMERIK to FANUC, compared by running both",
+     .flavour = Flavour::kSinumerik,
+     .mill = "sinumerik-840d-mill",
+     .lathe = "sinumerik-840d-lathe",
+     .check = CheckTranslation,
+     .target_mill = "fanuc-mill",
+     .target_lathe = "fanuc-lathe-a",
+     .without = {kWithTools, kWithoutTools}},
+    {.name = "sinumerik-to-mazak",
+     .title = "SINUMERIK to Mazak, compared by running both",
+     .flavour = Flavour::kSinumerik,
+     .mill = "sinumerik-840d-mill",
+     .lathe = "sinumerik-840d-lathe",
+     .check = CheckTranslation,
+     .target_mill = "mazak-mill",
+     .target_lathe = "mazak-qtn",
+     .without = {kWithTools, kWithoutTools}},
 };
 
 }  // namespace

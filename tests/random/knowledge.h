@@ -30,6 +30,7 @@ struct Knowledge {
   bool feed = false;     // a feed of the mode in force was written
   Turned turned = Turned::kUnknown;
   bool frame_clear = false;  // no programmable frame at all
+  std::uint16_t placed = 0;  // bit per axis whose position follows from words of this program on every way here
 
   /// Forgets the groups in `mask`.
   void Forget(std::uint32_t mask) {
@@ -69,7 +70,10 @@ struct Knowledge {
   }
 
   /// What is known where two ways meet.
-  void Join(const Knowledge& other) { Forget(Differences(other)); }
+  void Join(const Knowledge& other) {
+    Forget(Differences(other));
+    placed &= other.placed;
+  }
 };
 
 }  // namespace ncport::tests::random

@@ -53,8 +53,10 @@ Maker::Made Maker::Scaled(double factor, const Made& length) {
 bool Maker::ChooseFlat(Flat& flat) {
   static constexpr Flat kFlats[] = {{0, 1, 2, ir::Plane::kXY}, {2, 0, 1, ir::Plane::kZX}, {1, 2, 0, ir::Plane::kYZ}};
   const ir::Plane now = known_.modes.plane;
-  if (now != ir::Plane::kUnknown && (!MayChange(kPlaneGroup) || random_.Percent(70))) {
+  if (now != ir::Plane::kUnknown && (!MayChange(kPlaneGroup) || !Has(Feature::kPlane) || random_.Percent(70))) {
     flat = kFlats[static_cast<std::size_t>(now) - 1];
+  } else if (!Has(Feature::kPlane)) {
+    flat = kFlats[static_cast<std::size_t>(initial_.modes.plane) - 1];
   } else {
     flat = HasAxis(1) ? random_.Pick(kFlats) : kFlats[1];
   }
@@ -88,7 +90,11 @@ bool Maker::StartArc(Flat& flat) {
   }
   origin_set_ = false;
   const bool must = !Has(Feature::kValueModes) && known_.modes.distance == ir::Distance::kAbsolute;
-  if (!must && random_.Percent(55)) return true;
+  const std::uint16_t axes = static_cast<std::uint16_t>(1U << flat.first | 1U << flat.second);
+  moved_ |= axes;
+  const bool may_step = MayStep(flat.first) && MayStep(flat.second);
+  if (!must && may_step && random_.Percent(55)) return true;
+  known_.placed |= axes;
   // Go to a start point that is known: end and centre can then be absolute.
   origin_set_ = true;
   ir::BlockBuilder approach = NewBlock();
@@ -211,7 +217,7 @@ void Maker::AddHelix(ir::BlockBuilder& block, const Flat& flat, bool turns) {
   const bool absolute =
       Has(Feature::kValueModes) ? random_.Percent(60) : known_.modes.distance != ir::Distance::kIncremental;
   AxisWord(block, flat.normal, absolute, 1);
-  if (turns && IsSinumerik() && random_.Percent(40)) Word(block, WordOp::kTurns, As(Literal({1, 3, true}), Type::kInt));
+  if (turns && Draw(Feature::kTurns)) Word(block, WordOp::kTurns, As(Literal({1, 3, true}), Type::kInt));
 }
 
 void Maker::MakeArcCenter() {
@@ -237,8 +243,13 @@ void Maker::MakeArcRadius() {
   Flat flat;
   if (!StartArc(flat)) return MakeLinear();
   Arc arc = DrawArc(false);
+  const bool rounded = !Draw(Feature::kComputedRadius);
+  // Where words are rounded, so does the centre of a short arc or a half circle move: quarters only.
+  while (rounded && (arc.fives || std::fabs(arc.sweep - 180) < 1)) arc = DrawArc(false);
   // A half circle by its radius hangs on the last digit: only with plain numbers.
-  if (std::fabs(arc.sweep - 180) < 1) {
+  if (rounded) {
+    arc.length = Literal({1, IsInch() ? 1.0 : 8.0, true});
+  } else if (std::fabs(arc.sweep - 180) < 1) {
     arc.length =
         Literal(arc.fives ? Interval{0.2, IsInch() ? 0.3 : 4, false} : Interval{0.5, IsInch() ? 0.8 : 20, false});
   }
@@ -269,7 +280,9 @@ void Maker::MakeArcAngle() {
   if (random_.Percent(50)) {
     ArcEnd(block, flat, arc);
     Word(block, WordOp::kOpeningAngle, Literal(Interval::Point(90.0 * quarters)).id);
+    Displace(0xFFFF);
   } else {
+    Displace(0xFFFF);
     const std::uint8_t axes[] = {flat.first, flat.second};
     origin_axes_[0] = flat.first;
     origin_axes_[1] = flat.second;

@@ -51,6 +51,7 @@ void Maker::Emit(ir::BlockBuilder& block, bool may_skip) {
   if (may_skip && !labelled_ && Draw(Feature::kSkipLevel)) {
     block.Skip(static_cast<std::uint8_t>(random_.Below(3) + (IsSinumerik() ? 0 : 1)));
     known_.Join(before_block_);
+    if (known_.placed != 0 && !Has(Feature::kBlindStep)) known_.placed = 0;
   }
   block.Finish();
   cost_ += times_;

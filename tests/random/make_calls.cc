@@ -150,6 +150,8 @@ void Maker::AfterCall(const Subprogram& sub, std::uint64_t times) {
   for (std::uint8_t axis = 0; axis < ir::kLetterAxes; ++axis) {
     drift_[axis] += static_cast<double>(times_ * times) * sub.drift[axis];
   }
+  moved_ |= sub.moved;
+  Displace(sub.moved);
   const Knowledge before = known_;
   // F stays as the callee left it, also when modal words are put back.
   known_.Forget(sub.touched);
@@ -210,7 +212,7 @@ void Maker::MakeCall() {
     call.name_expr = expr_.Text(sub.name);
     call.name = {};
     call.program = {};
-  } else if (times > 1 || random_.Percent(5)) {
+  } else if (times > 1 || (Has(Feature::kPasses) && random_.Percent(5))) {
     call.passes = As(Literal(Interval::Point(static_cast<double>(times))), Type::kInt);
   }
   const std::uint64_t passes = call.passes.Valid() ? times : 1;

@@ -1,6 +1,8 @@
 // Branches, loops and jumps. Loops count; what a body may change is forgotten where it starts.
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "tests/random/maker.h"
 
 namespace ncport::tests::random {
@@ -85,7 +87,9 @@ void Maker::Loop(std::uint32_t turns, const Body& body) {
   }
   changing &= ~frozen_;
   known_.Forget(changing);
+  if (turns == 1 || random_.Percent(50)) known_.placed = 0;
   const Knowledge head = known_;
+  const std::uint16_t outer_axes = std::exchange(turn_axes_, known_.placed);
   const std::uint32_t frozen = frozen_;
   frozen_ |= kAllGroups & ~changing;
   times_ *= turns;
@@ -94,6 +98,7 @@ void Maker::Loop(std::uint32_t turns, const Body& body) {
   --depth_;
   times_ /= turns;
   frozen_ = frozen;
+  turn_axes_ = outer_axes;
   known_.Join(head);
 }
 
@@ -131,10 +136,12 @@ void Maker::MakeWhile() {
     else {
       Statements(1 + random_.Below(3));
       StepCounter(place);
+      CloseTurn();
       EmitMark(WordOp::kEndWhile);
       return;
     }
     Statements(1 + random_.Below(3));
+    CloseTurn();
     EmitMark(WordOp::kEndWhile);
   });
   --while_depth_;
@@ -164,6 +171,7 @@ void Maker::MakeFor() {
     block.For(CounterPlace(place), As(Literal({first, first, true}), place.type), As(end, place.type));
     Emit(block);
     Statements(1 + random_.Below(3));
+    CloseTurn();
     EmitMark(WordOp::kEndFor);
   });
   Busy(place, false);
@@ -196,6 +204,7 @@ void Maker::MakeLoop() {
       Statements(1 + random_.Below(3));
       leave();
     }
+    CloseTurn();
     EmitMark(WordOp::kEndLoop);
   });
   known_ = out.known;
@@ -213,6 +222,7 @@ void Maker::MakeRepeat() {
   Loop(turns, [&] {
     EmitMark(WordOp::kRepeat);
     Statements(1 + random_.Below(3));
+    CloseTurn();
     StepCounter(place);
     const std::uint8_t flags = IsSinumerik() ? ir::Expr::kTolerance : std::uint8_t{0};
     ExprId over = expr_.Binary(ExprOp::kGreaterEqual, CounterPlace(place),
@@ -295,6 +305,7 @@ void Maker::MakeBackwardJump() {
     PlaceLabel(target);
     StepCounter(place);
     Statements(1 + random_.Below(3));
+    CloseTurn();
     const ExprId again = CounterBelow(place, turns);
     EmitJump(target, again, false, random_.Percent(25));
   });

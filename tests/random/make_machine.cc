@@ -13,8 +13,9 @@ void Maker::MakeSpindle() {
                                                  ir::SpindleState::kStop};
   const ir::SpindleState state = random_.Pick(kStates);
   // A speed in m/min or 1/min, whichever is in force: both are plain numbers.
-  if (state != ir::SpindleState::kStop && random_.Percent(60)) {
-    Word(block, WordOp::kSpeed, NumberIn({60, 300, false}, 2).id);
+  const bool open = known_.modes.speed_mode == ir::SpeedMode::kUnknown;
+  if (state != ir::SpindleState::kStop && random_.Percent(60) && (!open || Draw(Feature::kOpenSpeedMode))) {
+    Word(block, WordOp::kSpeed, NumberIn({60, 300, !Draw(Feature::kFractionalSpeed)}, 2).id);
   }
   Code(block, WordOp::kSpindle, 0, static_cast<std::uint32_t>(state));
   Emit(block, true);
@@ -27,16 +28,27 @@ void Maker::MakeSpindlePosition() {
 }
 
 void Maker::MakeTool() {
+  // Translated programs change tools where one is in force on every way.
+  if (!Has(Feature::kComputedTool) && (depth_ > 0 || !in_main_)) return MakeAux();
+  // Between two tools a lathe may drive home: from a position that is known.
+  if (TransverseAxis() != 0xFF && !Has(Feature::kBlindStep) && position_known_) Approach(AllAxes());
   ir::BlockBuilder block = NewBlock();
   const bool named = IsSinumerik() && random_.Percent(20);
-  Word(
-      block, WordOp::kTool,
-      named ? expr_.Text(random_.Percent(50) ? "MILL_10" : "Drill 5") : As(NumberIn({1, 12, true}, 1), ir::Type::kInt));
-  if (random_.Percent(80)) Word(block, WordOp::kEdge, As(Literal({1, 3, true}), ir::Type::kInt));
+  Word(block, WordOp::kTool,
+       named ? expr_.Text(random_.Percent(50) ? "MILL_10" : "Drill 5")
+             : As(Draw(Feature::kComputedTool) ? NumberIn({1, 12, true}, 1) : Literal({1, 12, true}), ir::Type::kInt));
+  const bool lathe = TransverseAxis() != 0xFF;
+  const bool edge = random_.Percent(80);
+  const bool early = lathe || Draw(Feature::kEdgeBeforeChange);
+  const auto name_edge = [&](ir::BlockBuilder& in) {
+    Word(in, WordOp::kEdge, As(Literal({1, 3, true}), ir::Type::kInt));
+  };
+  if (edge && early) name_edge(block);
   Emit(block);
-  if (TransverseAxis() != 0xFF) return;
+  if (lathe) return;
   ir::BlockBuilder change = NewBlock();
   Code(change, WordOp::kToolChange);
+  if (edge && !early) name_edge(change);
   Emit(change);
 }
 
@@ -75,7 +87,7 @@ void Maker::MakeMessage() {
 
 // An alarm that ends the run stands where few runs come by; one that only shows may stand anywhere.
 void Maker::MakeAlarm() {
-  const bool stops = !IsSinumerik() || random_.Percent(40);
+  const bool stops = !Draw(Feature::kShownAlarm);
   const std::uint32_t number = stops ? 65000 + random_.Below(100) : 67000 + random_.Below(100);
   const auto alarm = [&] {
     ir::BlockBuilder block = NewBlock();

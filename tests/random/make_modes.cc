@@ -101,7 +101,9 @@ void Maker::NeedFeed(ir::BlockBuilder& block) {
 
 void Maker::MakePlane() {
   static constexpr ir::Plane kPlanes[] = {ir::Plane::kXY, ir::Plane::kZX, ir::Plane::kYZ};
-  const ir::Plane plane = HasAxis(1) ? random_.Pick(kPlanes) : ir::Plane::kZX;
+  const ir::Plane plane = !Has(Feature::kPlane) ? initial_.modes.plane
+                          : HasAxis(1)          ? random_.Pick(kPlanes)
+                                                : ir::Plane::kZX;
   if (!MayChange(kPlaneGroup)) return MakeLinear();
   ir::BlockBuilder block = NewBlock();
   SetPlane(block, plane);
@@ -152,7 +154,7 @@ void Maker::MakeSurfaceSpeed() {
   Emit(limit);
   ir::BlockBuilder block = NewBlock();
   Code(block, WordOp::kSpeedMode, At(ir::SpeedMode::kConstantSurface));
-  Word(block, WordOp::kSpeed, NumberIn({50, 300, false}, 1).id);
+  Word(block, WordOp::kSpeed, NumberIn({50, 300, !Draw(Feature::kFractionalSpeed)}, 1).id);
   Touch(kFeedGroup);
   known_.modes.speed_mode = ir::SpeedMode::kConstantSurface;
   known_.modes.feed_mode = ir::FeedMode::kPerRevolution;
@@ -190,6 +192,7 @@ void Maker::MakeWorkOffset() {
   known_.modes.work_offset = {};
   Emit(block, true);
   // Where the machine stands in the new system is not known.
+  Displace(0xFFFF);
   Approach(AllAxes());
 }
 
@@ -226,10 +229,11 @@ bool Maker::ResetFrame() {
   ir::BlockBuilder block = NewBlock();
   static constexpr ir::FrameOp kOps[] = {ir::FrameOp::kTranslate, ir::FrameOp::kRotate, ir::FrameOp::kScale,
                                          ir::FrameOp::kMirror};
-  Code(block, WordOp::kFrame, At(random_.Pick(kOps)));
+  Code(block, WordOp::kFrame, At(Has(Feature::kFrameTurns) ? random_.Pick(kOps) : ir::FrameOp::kTranslate));
   Touch(kFrameGroup);
   known_.frame_clear = true;
   known_.turned = Turned::kNo;
+  Displace(0xFFFF);
   Emit(block);
   return true;
 }
@@ -251,7 +255,7 @@ void Maker::MakeFrame() {
       Emit(units);
     }
     ir::BlockBuilder block = NewBlock();
-    const std::uint32_t kind = random_.Below(4);
+    const std::uint32_t kind = Draw(Feature::kFrameTurns) ? 1 + random_.Below(3) : 0;
     const bool additive = i > 0 || random_.Percent(30);
     static constexpr ir::FrameOp kAbsolute[] = {ir::FrameOp::kTranslate, ir::FrameOp::kRotate, ir::FrameOp::kScale,
                                                 ir::FrameOp::kMirror};
@@ -292,6 +296,7 @@ void Maker::MakeFrame() {
     Touch(kFrameGroup);
     known_.frame_clear = false;
     known_.turned = turned;
+    Displace(0xFFFF);
     Emit(block);
   }
 }

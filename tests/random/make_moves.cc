@@ -48,6 +48,8 @@ std::vector<std::uint8_t> Maker::SomeAxes(bool with_rotary) {
 }
 
 void Maker::AxisValue(ir::BlockBuilder& block, std::uint8_t axis, ValueMode mode, ir::ExprId value) {
+  moved_ |= static_cast<std::uint16_t>(1U << axis);
+  known_.placed |= static_cast<std::uint16_t>(1U << axis);
   if (IsSinumerik() && !ir::IsRotary(axis) && axis != TransverseAxis() && Draw(Feature::kComputedAxis)) {
     block.Add(WordOp::kAxisComputed, value, 0, expr_.AxisName(axis).value);
     block.Last().mode = mode;
@@ -67,6 +69,7 @@ void Maker::AxisWord(ir::BlockBuilder& block, std::uint8_t axis, bool absolute, 
   const bool rotary = ir::IsRotary(axis);
   const double unit = rotary ? 1 : UnitFactor();
   double most = rotary ? 180 : AbsoluteLimit();
+  absolute = absolute || !MayStep(axis);
   if (!absolute) {
     most = random_.Percent(50) ? 2 : 10;
     while (most > 0.1 && !MayDrift(axis, most * 2 * unit)) most *= 0.5;
@@ -142,7 +145,7 @@ void Maker::MakeLinear() {
 void Maker::MakeDwell() {
   ir::BlockBuilder block = NewBlock();
   if (IsSinumerik()) {
-    if (random_.Percent(30)) {
+    if (Draw(Feature::kDwellRevolutions)) {
       Word(block, WordOp::kDwellRevolutions, NumberIn({1, 20, false}, 1).id);
     } else {
       Word(block, WordOp::kDwellSeconds, NumberIn({0.1, 5, false}, 1).id);
@@ -168,7 +171,16 @@ void Maker::MakeMachineCoords() {
               Literal({-AbsoluteLimit(), AbsoluteLimit(), false}).id);
   }
   Emit(block);
+  Displace(0xFFFF);
   Approach(axes);
+}
+
+void Maker::CloseTurn() {
+  std::vector<std::uint8_t> lost;
+  for (std::uint8_t axis = 0; axis < ir::kLetterAxes; ++axis) {
+    if ((turn_axes_ & ~known_.placed) >> axis & 1U) lost.push_back(axis);
+  }
+  if (!lost.empty()) Approach(lost);
 }
 
 // Absolute words for axes whose position was lost.
@@ -244,14 +256,15 @@ void Maker::MakeChamfer() {
 // One thread along the axis of a lathe or a mill, then away.
 void Maker::MakeThread() {
   if (known_.modes.distance == ir::Distance::kUnknown && !MayChange(kDistanceGroup)) return MakeLinear();
+  const bool keeps_feed = Draw(Feature::kFeedAcrossThread);
+  if (!keeps_feed && !MayChange(kFeedGroup)) return MakeLinear();
   if (!known_.frame_clear && !ResetFrame()) return MakeLinear();
   ir::BlockBuilder block = NewBlock();
   NeedUnits(block);
   NeedDiameter(block);
-  const std::uint32_t kind = IsSinumerik() ? random_.Below(6) : 0;
-  const ir::Motion motion = kind == 4   ? ir::Motion::kThreadIncreasing
-                            : kind == 5 ? ir::Motion::kThreadDecreasing
-                                        : ir::Motion::kThread;
+  const ir::Motion motion = !Draw(Feature::kThreadVariable) ? ir::Motion::kThread
+                            : random_.Percent(50)           ? ir::Motion::kThreadIncreasing
+                                                            : ir::Motion::kThreadDecreasing;
   Code(block, WordOp::kMotion, static_cast<std::uint8_t>(motion));
   Touch(kMotionGroup);
   known_.modes.motion = motion;
@@ -261,6 +274,10 @@ void Maker::MakeThread() {
     Word(block, WordOp::kCenter, NumberIn({0.5 * unit, 4 * unit, false}, 1).id, 2);
     if (motion != ir::Motion::kThread) {
       Word(block, WordOp::kFeed, Literal({0.01 * unit, 0.1 * unit, false}).id);
+      Touch(kFeedGroup);
+      known_.feed = false;
+    }
+    if (!keeps_feed) {
       Touch(kFeedGroup);
       known_.feed = false;
     }
@@ -338,6 +355,7 @@ void Maker::MakePolar() {
   pole.Axis(flat.first, NumberIn({-most, most, false}, 1).id);
   pole.Axis(flat.second, NumberIn({-most, most, false}, 1).id);
   Emit(pole);
+  Displace(0xFFFF);
   const std::uint32_t points = 1 + random_.Below(3);
   for (std::uint32_t i = 0; i < points; ++i) {
     ir::BlockBuilder block = NewBlock();

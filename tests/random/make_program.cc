@@ -283,6 +283,7 @@ void Maker::MakeMain() {
   cost_ = 0;
   times_ = 1;
   drift_.fill(0);
+  moved_ = turn_axes_ = 0;
   position_known_ = false;
   WriteStart();
   Statements(options_.statements / 2 + random_.Below(options_.statements));
@@ -311,6 +312,8 @@ void Maker::MakeSubprogram(std::uint32_t index) {
   WriteExterns();
   sub.entry = RandomEntry();
   known_ = sub.entry;
+  known_.placed = 0;
+  moved_ = turn_axes_ = 0;
   touched_ = frozen_ = 0;
   cost_ = 0;
   times_ = 1;
@@ -329,10 +332,17 @@ void Maker::MakeSubprogram(std::uint32_t index) {
   sub.touched = touched_;
   sub.drift = drift_;
   sub.cost = cost_;
+  sub.moved = moved_;
   subs_.push_back(std::move(sub));
 }
 
 void Maker::WriteEnd(bool main) {
+  // Some machines end with G97, which freezes a surface speed: where X is not known there is none.
+  if (main && !Has(Feature::kComputedTool) && known_.modes.speed_mode != ir::SpeedMode::kRpm) {
+    ir::BlockBuilder rpm = NewBlock();
+    SetRpm(rpm);
+    Emit(rpm);
+  }
   ir::BlockBuilder block = NewBlock();
   const std::uint32_t way = random_.Below(3);
   if (main || (IsSinumerik() && way == 0 && random_.Percent(40))) {

@@ -64,6 +64,7 @@ struct Subprogram {
   bool repeatable = false;                      // its exit meets its entry: passes
   std::array<double, ir::kLetterAxes> drift{};  // mm, at most, of one call
   std::uint64_t cost = 0;                       // blocks, of one call
+  std::uint16_t moved = 0;                      // bit per axis that a call may move
 };
 
 class Maker {
@@ -232,6 +233,13 @@ class Maker {
   /// Blocks that must stand before a move: the speed mode when it and the feed mode are open.
   void Ready();
   void SetMotion(ir::BlockBuilder& block, ir::Motion motion);
+  /// A position of the axis that no word of this program says.
+  void Displace(std::uint16_t axes) { known_.placed &= static_cast<std::uint16_t>(~axes); }
+  [[nodiscard]] bool IsPlaced(std::uint8_t axis) const { return (known_.placed >> axis & 1U) != 0; }
+  /// Steps may be written although the position is not known.
+  bool MayStep(std::uint8_t axis) { return IsPlaced(axis) || Draw(Feature::kBlindStep); }
+  /// Words that bring the loop's axes back to known positions.
+  void CloseTurn();
   void NeedFeed(ir::BlockBuilder& block);
   void NeedUnits(ir::BlockBuilder& block);
   void NeedDiameter(ir::BlockBuilder& block);
@@ -339,7 +347,9 @@ class Maker {
   bool labelled_ = false;  // the block being made carries a label or a number that jumps name
   Knowledge before_block_;
   std::uint32_t while_depth_ = 0;
-  bool in_part_ = false;  // inside a part that is repeated by its labels
+  std::uint16_t turn_axes_ = 0;  // placed at the head of the loop around here: so they must be at its end
+  std::uint16_t moved_ = 0;      // axes that the program being made may move
+  bool in_part_ = false;         // inside a part that is repeated by its labels
   bool position_known_ = true;
   bool origin_set_ = false;  // the start of the present arc is `origin_`
   Made origin_[2];

@@ -1,0 +1,13 @@
+// The lead of a thread: a word of its own in the source (K), the feed word here (fanuc-8.3). The feed in force is lost
+// by it.
+#pragma once
+
+#include "backends/fanuc/raise.h"
+
+namespace ncport::backends::fanuc {
+
+/// Lead words become F. A feed move behind a thread that relies on the F before it is refused. Run after
+/// AbsoluteDimensions.
+bool ThreadLeads(const RaiseInput& input, Translation& out, diag::Sink& sink);
+
+}  // namespace ncport::backends::fanuc

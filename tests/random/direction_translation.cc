@@ -1,0 +1,91 @@
+// Translations: raised, printed, read back and compared over both programs.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "app/comparison.h"
+#include "backends/translate.h"
+#include "tests/random/direction_checks.h"
+#include "tests/random/refusals.h"
+#include "tests/random/runs.h"
+#include "tests/random/texts.h"
+
+namespace ncport::tests::random {
+
+namespace {
+
+std::string ListingOf(const std::vector<backends::OutputFile>& files) {
+  std::string all;
+  for (const backends::OutputFile& file : files) all += fmt::format("--- {}\n{}", file.name, file.text);
+  return all;
+}
+
+/// The files of the main program and of those that it calls, as a command reads them.
+std::vector<TextFile> PrintCalled(const Subject& subject) {
+  const ir::Module& module = *subject.module;
+  const std::vector<TextFile> all = PrintAll(module, *subject.profile);
+  std::vector<ir::ProgramId> called{subject.main};
+  for (std::size_t i = 0; i < called.size(); ++i) {
+    for (const ir::BlockId block : module.programs[called[i]].blocks) {
+      for (const ir::WordId id : module.blocks[block].words) {
+        const ir::Word& word = module.words[id];
+        const auto call = word.Extra<ir::CallId>();
+        if ((word.op != ir::WordOp::kCall && word.op != ir::WordOp::kModalCall) || !call.Valid()) continue;
+        const ir::ProgramId callee = module.calls[call].program;
+        if (callee.Valid() && std::ranges::find(called, callee) == called.end()) called.push_back(callee);
+      }
+    }
+  }
+  std::vector<TextFile> texts;
+  for (const ir::ProgramId program : called) texts.push_back(all[module.programs[program].file.value]);
+  return texts;
+}
+
+/// First words of a difference, without the numbers in it: what kind it is.
+std::string KindOf(std::string_view difference) {
+  std::string kind(difference.substr(0, difference.find_first_of("0123456789-")));
+  return kind.substr(0, 90);
+}
+
+}  // namespace
+
+Finding CheckTranslation(const Subject& subject, const Direction& /*direction*/) {
+  const std::vector<TextFile> texts = PrintCalled(subject);
+  Context context;
+  app::ProgramSet set;
+  set.profile = *subject.profile;
+  if (!ReadAll(texts, set.profile, context.files, set.module, context.findings))
+    return {Verdict::kFails, "read the source, " + FirstError(context.findings), TextOf(context.findings),
+            Listing(texts)};
+  const ir::ProgramId entry =
+      set.module.FindProgram(subject.module->View(subject.module->programs[subject.main].name), true);
+  if (!entry.Valid()) return {Verdict::kFails, "main program lost", "no program of that name", Listing(texts)};
+
+  backends::Translation translation;
+  if (!backends::Raise({&set.module, &set.profile, subject.machine, subject.target, subject.config}, translation,
+                       context.findings)) {
+    return {Verdict::kRefused, ReasonOf(context.findings), TextOf(context.findings), Listing(texts)};
+  }
+  const std::vector<backends::OutputFile> files = backends::Print(*subject.target, translation, {});
+  // Values of arguments stay as written: what they may be is known to the generator alone.
+  app::ComparisonSetup setup;
+  setup.max_blocks = subject.max_blocks * 4;
+  setup.vary_inputs = false;
+  std::vector<prove::Input> varied;
+  const prove::Verification verification = app::CompareTranslation(
+      context, set, *subject.machine, entry, *subject.target, translation, files, subject.config, setup, varied);
+  const auto artefact = [&] { return Listing(texts) + ListingOf(files); };
+  if (verification.difference) {
+    return {Verdict::kFails, "compare, " + KindOf(verification.difference->what),
+            fmt::format("{} ({})", verification.difference->what, verification.difference_start), artefact()};
+  }
+  // Branches that no run took are no fault here: the next program takes others.
+  if (verification.sets_run == 0 || (verification.open_branches.empty() && !verification.compared))
+    return {Verdict::kFails, "not compared, " + KindOf(verification.not_compared),
+            verification.not_compared + "\n" + TextOf(context.findings), artefact()};
+  return {};
+}
+
+}  // namespace ncport::tests::random

@@ -1,0 +1,37 @@
+#include "tests/random/texts.h"
+
+#include <fmt/format.h>
+
+#include "backends/sinumerik/print.h"
+#include "base/text_buffer.h"
+#include "frontend/reader.h"
+
+namespace ncport::tests::random {
+
+std::vector<TextFile> PrintAll(const ir::Module& module, const dialects::Profile& profile) {
+  std::vector<TextFile> texts;
+  for (std::size_t i = 0; i < module.file_names.size(); ++i) {
+    TextBuffer out;
+    backends::sinumerik::PrintFile(module, FileId{i}, profile, out);
+    texts.push_back({std::string(module.View(module.file_names[i])), std::string(out.View())});
+  }
+  return texts;
+}
+
+bool ReadAll(const std::vector<TextFile>& texts, const dialects::Profile& profile, SourceFiles& files,
+             ir::Module& module, diag::Sink& sink) {
+  for (const TextFile& file : texts) {
+    const FileId id = files.Add(file.name, file.text);
+    (void)frontend::ReadFile(files, id, profile, {}, module, sink);
+  }
+  frontend::ResolveNames(files, module, profile, sink);
+  return !sink.HasErrors();
+}
+
+std::string Listing(const std::vector<TextFile>& texts) {
+  std::string all;
+  for (const TextFile& file : texts) all += fmt::format("--- {}\n{}", file.name, file.text);
+  return all;
+}
+
+}  // namespace ncport::tests::random

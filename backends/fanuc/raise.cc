@@ -132,30 +132,6 @@ bool NamePrograms(const RaiseInput& input, const SplitResult& split, Translation
   return ok;
 }
 
-/// Is there a function whose result depends on fanuc.atan-range?
-bool HasAngleRange(const Module& module, ir::ExprId id) {
-  if (!id.Valid()) return false;
-  const ir::Expr& expr = module.exprs[id];
-  switch (ir::OperandsOf(expr.op)) {
-    case ir::Operands::kLeaf:
-      return false;
-    case ir::Operands::kUnary:
-      return HasAngleRange(module, ir::ExprId{expr.a});
-    case ir::Operands::kBinary:
-      return HasAngleRange(module, ir::ExprId{expr.a}) || HasAngleRange(module, ir::ExprId{expr.b});
-    case ir::Operands::kList:
-      if (expr.op == ir::ExprOp::kFunction) {
-        const auto* row = dialects::fanuc::FindFunction(static_cast<ir::Function>(expr.a));
-        if (row != nullptr && row->angle_range) return true;
-      }
-      for (std::uint32_t i = 0; i < expr.count; ++i) {
-        if (HasAngleRange(module, module.Item(expr.b + i))) return true;
-      }
-      return false;
-  }
-  return false;
-}
-
 /// Without brackets and conversions that change nothing.
 ir::ExprId BareValue(const Module& module, ir::ExprId id) {
   while (module.exprs[id].op == ir::ExprOp::kGroup || module.exprs[id].op == ir::ExprOp::kPlus ||
@@ -197,8 +173,6 @@ bool CheckLegal(const RaiseInput& input, Translation& out, diag::Sink& sink) {
             if (expr.op != ir::ExprOp::kSystem) return;
             refuse(word, module.View(module.systems[ir::SystemId{expr.a}].name));
           });
-          // The range of an angle is a setting.
-          if (HasAngleRange(module, value)) need(profile.fanuc.atan_range, word);
         };
         values(word.value);
         if (word.op == WordOp::kAssign) values(word.Extra<ir::ExprId>());

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "backends/fanuc/corners.h"
+#include "backends/fanuc/dwells.h"
 #include "backends/fanuc/frame_blocks.h"
 #include "backends/fanuc/limit_nesting.h"
 #include "backends/fanuc/mazak_lathe_rules.h"
@@ -25,6 +26,7 @@
 #include "ir/transform/linear_form.h"
 #include "ir/transform/lower_expressions.h"
 #include "ir/transform/names_to_numbers.h"
+#include "ir/transform/part_ends.h"
 #include "ir/transform/resolve_axes.h"
 #include "ir/transform/save_to_restores.h"
 #include "ir/transform/split_at_tool_change.h"
@@ -255,7 +257,6 @@ bool CheckLegal(const RaiseInput& input, Translation& out, diag::Sink& sink) {
             }
             break;
           case WordOp::kDwellSeconds:
-            if (profile.IsLathe()) need(profile.fanuc.dwell, word);
             need(profile.words.dwell, word);
             break;
           default: {
@@ -325,6 +326,8 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
     const ir::analysis::CallGraph calls(module);
     ResolveAxes(module, ir::analysis::ModalFlow(module, machine, graphs, calls, {machine.start, entry}));
   }
+  // Before a pass puts blocks behind the last one of a part that is repeated.
+  for (const ir::ProgramId program : module.programs.Ids()) MarkPartEnds(module, program);
   TextsToComments(input, out, sink);
   EndsToReturns(input, module);
   PiToNumber(module);
@@ -342,6 +345,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   if (!ok) return false;
   // While the source's modes still stand in the blocks: words that name what the target must be told.
   ok = MapCorners(input, out, sink) && ok;
+  ok = MapDwells(input, out, sink) && ok;
   NameMotions(input, out);
   ok = ArrangeSpindle(input, out, sink) && ok;
   ok = (profile.IsLathe() ? MapTools(input, out, sink) : MapMillTools(input, out, sink)) && ok;

@@ -165,6 +165,7 @@ struct Cfg::Builder {
       }
       Add(EdgeKind::kPart, range->first);
       AddNext(here, EdgeKind::kPartEnd, range->last);
+      if (word.value.Valid()) AddFrom(range->last, EdgeKind::kPart, range->first);  // a further pass
       for (const BlockId end : {range->first, range->last}) {
         const auto more = static_cast<std::uint16_t>(hidden[i] | SkipBit(end));
         if (std::ranges::find(hidden, more) == hidden.end()) hidden.push_back(more);

@@ -20,7 +20,7 @@ enum class EdgeKind : std::uint8_t {
   kFalse,    // condition of IF, WHILE, FOR, UNTIL does not hold
   kThenEnd,  // from ELSE to its end
   kBack,     // from the end of a loop to its start
-  kPart,     // into a repeated part
+  kPart,     // into a repeated part, and from its end to its start
   kPartEnd,  // from the last block of a repeated part to the block behind the RepeatPart word
   kRestart,
   kComputed,  // to any block of Cfg::ComputedTargets(); `to` is none

@@ -14,6 +14,7 @@
 #include "ir/structure.h"
 #include "ir/transform/conditions.h"
 #include "ir/transform/new_local.h"
+#include "ir/transform/part_ends.h"
 
 namespace ncport::ir::transform {
 
@@ -43,12 +44,14 @@ class Lowering {
   bool Run();
 
  private:
+  void FindParts();
   void FindKeptLoops();
   void LowerBlock(std::uint32_t index);
   void LowerMark(std::uint32_t index, const Word& word);
   void LowerJump(std::uint32_t index, const Word& word);
   void LowerSwitch(std::uint32_t index, const Word& word);
   void LowerRepeatPart(std::uint32_t index, const Word& word);
+  void EndParts(std::uint32_t index);
   void Finish();
   void NumberBlocks();
 
@@ -78,6 +81,12 @@ class Lowering {
   std::vector<std::pair<JumpId, Place>> jumps_;           // target numbers are set at the end
   std::unordered_map<std::uint32_t, std::uint8_t> kept_;  // loop openers that stay -> DO number
   std::unordered_map<std::uint32_t, Place> for_heads_;    // FOR loops that became jumps -> where the end is tested
+  /// A part that lies away from its REPEAT block: blocks `first` to `last` run while its counter is above 0.
+  struct DistantPart {
+    std::uint32_t first, last, repeat;
+    ExprId count;
+  };
+  std::vector<DistantPart> distant_;
   std::vector<VariableId> repeat_counters_;
   const Block* current_ = nullptr;  // source block that is being lowered
   bool first_of_block_ = false;
@@ -121,8 +130,11 @@ void Lowering::FindKeptLoops() {
           note(module_.jumps[module_.switch_arms[cases.first_arm + arm].jump]);
       }
       if (word.op == WordOp::kRepeatPart) {
-        if (const auto range = labels_.FindPart(module_.parts[word.Extra<PartId>()], BlockAt(i)))
+        if (const auto range = labels_.FindPart(module_.parts[word.Extra<PartId>()], BlockAt(i))) {
           jumps.emplace_back(i, Before(range->first));
+          jumps.emplace_back(Before(range->last), Before(range->first));
+          jumps.emplace_back(Before(range->last), i + 1);
+        }
       }
     }
   }
@@ -237,17 +249,72 @@ void Lowering::LowerSwitch(std::uint32_t index, const Word& word) {
   }
 }
 
-/// The part that is run again ends right before this block: a counter that stands at 0 outside decides.
+/// Finds the parts that lie away from their REPEAT block. A part must be one that is left at its end only: a counter
+/// that still stands above 0 would send a later pass through the part back to the REPEAT block (sinumerik-6.4).
+void Lowering::FindParts() {
+  for (std::uint32_t i = 0; i < source_.count; ++i) {
+    for (const WordId id : module_.blocks[BlockAt(i)].words) {
+      const Word& word = module_.words[id];
+      if (word.op != WordOp::kRepeatPart) continue;
+      const auto range = labels_.FindPart(module_.parts[word.Extra<PartId>()], BlockAt(i));
+      if (!range) {
+        Refuse(i, word, "a repeated part whose labels are not found");
+        continue;
+      }
+      const std::uint32_t first = Before(range->first), last = Before(range->last);
+      if (!LeavesAtEndOnly(module_, labels_, *range)) {
+        Refuse(i, word, "a repeated part that is left before its end");
+        continue;
+      }
+      if (module_.blocks[range->first].skip_level != Block::kNoSkip ||
+          module_.blocks[range->last].skip_level != Block::kNoSkip) {
+        Refuse(i, word, "a repeated part with a label in a block that may be skipped");
+        continue;
+      }
+      if (last + 1 == i) continue;
+      const VariableId counter = NewLocal(module_, program_, "REPEAT_COUNT", Type::kInt);
+      repeat_counters_.push_back(counter);
+      distant_.push_back({first, last, i, make_.Variable(counter)});
+    }
+  }
+}
+
+/// Behind the last block of a part: while its counter is above 0 control goes back, and after the last pass to the
+/// block behind the REPEAT block.
+void Lowering::EndParts(std::uint32_t index) {
+  for (const DistantPart& part : distant_) {
+    if (part.last != index) continue;
+    Block plain;
+    plain.origin = module_.blocks[BlockAt(index)].origin;
+    plain.indent = module_.blocks[BlockAt(index)].indent;
+    current_ = &plain;
+    first_of_block_ = false;
+    const Place on = NewPlace();
+    EmitCondition(make_.Binary(ExprOp::kLessEqual, part.count, make_.Literal(0, Type::kInt)), true, on);
+    EmitAssign(part.count, make_.Binary(ExprOp::kSubtract, part.count, make_.Literal(1, Type::kInt)));
+    EmitCondition(make_.Binary(ExprOp::kGreater, part.count, make_.Literal(0, Type::kInt)), true, part.first);
+    EmitJump(part.repeat + 1);
+    Here(on);
+    current_ = nullptr;
+  }
+}
+
+/// A part that ends right before this block: a counter that stands at 0 outside decides. Another one: its counter is
+/// set, and EndParts leads back.
 void Lowering::LowerRepeatPart(std::uint32_t index, const Word& word) {
+  const ExprId turns = word.value.Valid() ? word.value : make_.Literal(1, Type::kInt);
+  for (const DistantPart& part : distant_) {
+    if (part.repeat != index) continue;
+    EmitAssign(part.count, turns);
+    return EmitCondition(make_.Binary(ExprOp::kGreater, part.count, make_.Literal(0, Type::kInt)), true, part.first);
+  }
   const auto range = labels_.FindPart(module_.parts[word.Extra<PartId>()], BlockAt(index));
-  if (!range) return Refuse(index, word, "a repeated part whose labels are not found");
-  if (After(range->last) != index) return Refuse(index, word, "a repeated part that lies away from its REPEAT block");
+  if (!range) return;  // has its finding
   const VariableId counter = NewLocal(module_, program_, "REPEAT_COUNT", Type::kInt);
   repeat_counters_.push_back(counter);
   const ExprId count = make_.Variable(counter);
   const Place running = NewPlace();
   EmitCondition(make_.Binary(ExprOp::kNotEqual, count, make_.Literal(0, Type::kInt)), true, running);
-  const ExprId turns = word.value.Valid() ? word.value : make_.Literal(1, Type::kInt);
   EmitAssign(count, make_.Binary(ExprOp::kAdd, turns, make_.Literal(1, Type::kInt)));
   Here(running);
   EmitAssign(count, make_.Binary(ExprOp::kSubtract, count, make_.Literal(1, Type::kInt)));
@@ -363,8 +430,10 @@ void Lowering::LowerBlock(std::uint32_t index) {
   flush();
   // A block that became nothing stays for its comments, its number or as a blank line.
   const bool mark = !block.words.Empty();
-  if (first_of_block_ && (!mark || !block.comments.Empty() || block.number != Block::kNoNumber)) Emit({});
+  const bool blank = !mark && (block.flags & Block::kAdded) == 0;  // an added one is the mark of a part's end
+  if (first_of_block_ && (blank || !block.comments.Empty() || block.number != Block::kNoNumber)) Emit({});
   current_ = nullptr;
+  EndParts(index);
 }
 
 void Lowering::NumberBlocks() {
@@ -481,10 +550,12 @@ void Lowering::Finish() {
 }
 
 bool Lowering::Run() {
+  FindParts();
   FindKeptLoops();
   for (std::uint32_t i = 0; i < source_.count; ++i) LowerBlock(i);
   Here(source_.count);  // behind an ENDIF that is the last block
   if (!ok_) return false;
+  Here(source_.count);
   Finish();
   return ok_;
 }

@@ -107,7 +107,7 @@ TEST_CASE("ir cfg: switches") {
 
 TEST_CASE("ir cfg: repeated parts go in and come back behind their word") {
   CHECK(EdgesOf("@- label A\n@-\n@- : repeat-part first label A = 3\n@-\n") ==
-        Lines{"next 1", "next 2, part-end 3", "part 0, next 3", "text-end"});
+        Lines{"next 1", "next 2, part-end 3, part 0", "part 0, next 3", "text-end"});
   CHECK(EdgesOf("@- label A\n@- label B\n@- : repeat-part first label A last label A\n") ==
         Lines{"next 1, text-end", "next 2", "part 0, text-end"});
   CHECK(EdgesOf("@- : repeat-part first label X\n@-\n") == Lines{"missing, next 1", "text-end"});

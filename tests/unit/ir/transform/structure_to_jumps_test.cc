@@ -6,6 +6,7 @@
 
 #include "ir/builder.h"
 #include "ir/structure.h"
+#include "ir/transform/part_ends.h"
 
 namespace ncport::ir::transform {
 namespace {
@@ -172,6 +173,60 @@ TEST_CASE("a part that is repeated runs its count again") {
   p.Block().Assign(f.R(9), f.e.Binary(ExprOp::kAdd, f.R(9), f.e.Number("0.5"))).Finish();
   REQUIRE(f.Lower(p));
   CHECK(f.Run(p.Id(), 9) == 4.5);
+}
+
+TEST_CASE(
+    "a part that lies away from its repeat word is met once and run again, and then control is behind that word") {
+  Fixture f;
+  ProgramBuilder p(f.module, "P");
+  const auto add = [&](const char* number) { return f.e.Binary(ExprOp::kAdd, f.R(9), f.e.Number(number)); };
+  p.Block().Assign(f.R(9), f.e.Number("0")).Finish();
+  p.Block().Label("PART").Assign(f.R(9), add("1")).Finish();
+  p.Block().Label("OVER").Assign(f.R(9), add("10")).Finish();
+  p.Block().Assign(f.R(9), add("100")).Finish();
+  p.Block().RepeatPart("PART", "OVER", f.e.Number("3")).Finish();
+  p.Block().Assign(f.R(9), add("0.5")).Finish();
+  REQUIRE(f.Lower(p));
+  CHECK(f.Run(p.Id(), 9) == 11 + 100 + 33 + 0.5);
+}
+
+TEST_CASE("a part that runs inside another one ends where it is repeated") {
+  Fixture f;
+  ProgramBuilder p(f.module, "P");
+  const auto add = [&](const char* number) { return f.e.Binary(ExprOp::kAdd, f.R(9), f.e.Number(number)); };
+  p.Block().Assign(f.R(9), f.e.Number("0")).Finish();
+  p.Block().Label("OUTER").Assign(f.R(9), add("1000")).Finish();
+  p.Block()
+      .Add(WordOp::kRepeatPart, f.e.Number("2"), 0,
+           f.module.parts
+               .Add([&] {
+                 Part part;
+                 part.single = true;
+                 part.first.label = f.module.strings.Intern("INNER");
+                 return part;
+               }())
+               .value)
+      .Finish();
+  p.Block().Label("INNER").Assign(f.R(9), add("1")).Finish();
+  p.Block().Assign(f.R(9), add("0.25")).Finish();
+  p.Block().RepeatPart("OUTER", "INNER", f.e.Number("1")).Finish();
+  p.Finish();
+  MarkPartEnds(f.module, p.Id());
+  BuildStructure(f.module, p.Id(), 0, f.sink);
+  REQUIRE(StructureToJumps(f.module, p.Id(), {}, f.sink));
+  // Twice OUTER: 1000, INNER twice by its repeat word and once as it is met.
+  CHECK(f.Run(p.Id(), 9) == 2 * 1003 + 0.25);
+}
+
+TEST_CASE("a part that is left before its end is a finding: its counter would stand above 0") {
+  Fixture f;
+  ProgramBuilder p(f.module, "P");
+  p.Block().Label("PART").Assign(f.R(9), f.e.Number("1")).Finish();
+  p.Block().Jump("OUT", Search::kForward, f.Less(9, "5")).Finish();
+  p.Block().RepeatPart("PART", "", f.e.Number("3")).Finish();
+  p.Block().Label("OUT").Assign(f.R(9), f.e.Number("2")).Finish();
+  CHECK_FALSE(f.Lower(p));
+  CHECK(f.sink.HasErrors());
 }
 
 TEST_CASE("a jump to nowhere is a finding") {

@@ -1,0 +1,106 @@
+#include "backends/fanuc/dwells.h"
+
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "ir/analysis/call_graph.h"
+#include "ir/analysis/cfg.h"
+#include "ir/analysis/modal_state.h"
+#include "ir/transform/program_editor.h"
+
+namespace ncport::backends::fanuc {
+
+namespace {
+
+using ir::Block;
+using ir::BlockId;
+using ir::FeedMode;
+using ir::Module;
+using ir::ProgramId;
+using ir::Word;
+using ir::WordId;
+using ir::WordOp;
+using ir::transform::ProgramEditor;
+using Counts = dialects::FanucSettings::Dwell;
+
+Word FeedModeWord(FeedMode mode) {
+  Word word;
+  word.op = WordOp::kFeedMode;
+  word.index = static_cast<std::uint8_t>(mode);
+  word.phase = ir::DefaultPhaseOf(word.op);
+  word.flags = Word::kAdded;
+  return word;
+}
+
+}  // namespace
+
+bool MapDwells(const RaiseInput& input, Translation& out, diag::Sink& sink) {
+  Module& module = out.module;
+  const dialects::Profile& profile = *input.profile;
+  const Counts* const counts = profile.fanuc.dwell.Known() ? &*profile.fanuc.dwell : nullptr;
+  const ir::analysis::FlowGraphs graphs(module);
+  const ir::analysis::CallGraph calls(module);
+  const ir::analysis::ModalFlow flow(
+      module, *input.source_machine, graphs, calls,
+      {input.source_machine->start, input.config != nullptr ? input.config->entry : ir::ModalState{}});
+  bool ok = true;
+  for (const ProgramId program : module.programs.Ids()) {
+    ProgramEditor editor(module, program, "map_dwells");
+    for (const BlockId id : module.programs[program].blocks) {
+      const Block block = module.blocks[id];
+      std::vector<Word> words;
+      bool seconds = false, turns = false, names_mode = false;
+      for (const WordId word_id : block.words) {
+        Word word = module.words[word_id];
+        seconds = seconds || word.op == WordOp::kDwellSeconds;
+        turns = turns || word.op == WordOp::kDwellRevolutions;
+        names_mode = names_mode || word.op == WordOp::kFeedMode;
+        if (word.op == WordOp::kDwellRevolutions) word.op = WordOp::kDwellSeconds;  // one word, the mode says which
+        // The word that makes a dwell of its block in the source: in the target it is a part of the dwell's form.
+        if (word.op == WordOp::kInert && word.phase == ir::Phase::kMotion) continue;
+        words.push_back(word);
+      }
+      if (!seconds && !turns) continue;
+      const auto refuse = [&](std::string_view what, std::string_view help) {
+        ok = false;
+        sink.Report(diag::Code::kNotExpressible, module.RangeOf(block), what, profile.name).help = help;
+      };
+      Block changed = block;
+      editor.SetWords(changed, words);
+      module.blocks[id].words = changed.words;
+      if (turns && (counts == nullptr || *counts != Counts::kRevolutions)) {
+        refuse(
+            "a dwell in turns of the spindle",
+            "write the seconds that they take; where the control counts turns, say so: fanuc.dwell = \"revolutions\"");
+        continue;
+      }
+      if (seconds && counts != nullptr && *counts == Counts::kTime) continue;
+      const FeedMode needed = turns ? FeedMode::kPerRevolution : FeedMode::kPerMinute;
+      const FeedMode mode = flow.At(program, id).feed_mode;
+      if (mode == needed || !flow.Reached(program, id)) continue;
+      if (mode != FeedMode::kPerMinute && mode != FeedMode::kPerRevolution) {
+        refuse("a dwell while the feed mode is not known, which says whether it counts seconds or turns",
+               "write the feed mode (G94, G95) on every way that leads here");
+        continue;
+      }
+      if (names_mode) {
+        refuse("a feed mode beside a dwell", "write the feed mode in a block of its own");
+        continue;
+      }
+      Block before = editor.MakeBlock(id), behind = editor.MakeBlock(id);
+      before.skip_level = behind.skip_level = block.skip_level;
+      before.label = std::exchange(module.blocks[id].label, StringId{});
+      before.number = std::exchange(module.blocks[id].number, Block::kNoNumber);
+      before.number_digits = block.number_digits;
+      editor.SetWords(before, {FeedModeWord(needed)});
+      editor.InsertBefore(id, before);
+      editor.SetWords(behind, {FeedModeWord(mode)});
+      editor.InsertAfter(id, behind);
+    }
+    editor.Apply();
+  }
+  return ok;
+}
+
+}  // namespace ncport::backends::fanuc

@@ -9,7 +9,10 @@
 
 #include "app/ncport.h"
 #include "app/pipeline.h"
+#include "app/value_rule_options.h"
 #include "check/rules.h"
+#include "check/structure_rules.h"
+#include "check/value_rules.h"
 
 namespace ncport {
 namespace {
@@ -121,6 +124,19 @@ void OneABlock(diag::Sink& findings) {
   });
 }
 
+/// Rules over the flow graphs and over the values of variables.
+void CheckFlow(Context& context, const app::ProgramSet& set, const CheckOptions& options,
+               const check::Subject& subject) {
+  for (const ir::ProgramId program : set.module.programs.Ids()) {
+    if (set.module.programs[program].library) continue;
+    check::CheckUnreachable(set.module, program, subject.graphs, context.findings);
+    check::CheckComparisons(set.module, program, context.findings);
+    check::CheckExactLoopEnds(set.module, program, context.findings);
+  }
+  const check::ValueRuleOptions rules = app::ValueRuleOptionsFor(context, set, options.config);
+  (void)check::CheckValues(set.module, subject.machine, subject.graphs, subject.calls, rules, context.findings);
+}
+
 }  // namespace
 
 Status Check(Context& context, const std::vector<Input>& inputs, const CheckOptions& options) {
@@ -131,7 +147,10 @@ Status Check(Context& context, const std::vector<Input>& inputs, const CheckOpti
   const Status read = app::ReadSet(context, inputs, options, app::ProfileNeed::kGuess, set);
   if (set.inputs.empty()) return read & Failure{};
   const ir::ModalState entry = options.config != nullptr ? options.config->entry : ir::ModalState{};
-  check::CheckPrograms(check::Subject(set.module, set.profile, entry), context.findings);
+  const check::Subject subject(set.module, set.profile, entry);
+  check::CheckPrograms(subject, context.findings);
+
+  CheckFlow(context, set, options, subject);
 
   Ignores ignores = CollectIgnores(context.files, set.module);
   context.findings.Remove([&](const diag::Diagnostic& finding) {

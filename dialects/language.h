@@ -12,5 +12,9 @@ inline constexpr std::size_t kLanguages = 5;
 
 /// "sinumerik", "fanuc", "num", "linuxcnc", "iso".
 std::string_view NameOf(Language language);
+/// As its makers write it: "SINUMERIK", "Fanuc" ...
+std::string_view TitleOf(Language language);
+/// How a program tests a value {0} before it divides by it, for remedies. Empty where the language has no tests.
+std::string_view TestExampleOf(Language language);
 
 }  // namespace ncport::dialects

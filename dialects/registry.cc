@@ -20,6 +20,33 @@ static_assert(std::size(kLanguageInfos) == kLanguages);
 
 std::string_view NameOf(Language language) { return InfoOf(language).name; }
 
+std::string_view TitleOf(Language language) {
+  switch (language) {
+    case Language::kSinumerik:
+      return "SINUMERIK";
+    case Language::kFanuc:
+      return "Fanuc";
+    case Language::kNum:
+      return "NUM";
+    case Language::kLinuxCnc:
+      return "LinuxCNC";
+    case Language::kIso:
+      break;
+  }
+  return "ISO";
+}
+
+std::string_view TestExampleOf(Language language) {
+  switch (language) {
+    case Language::kSinumerik:
+      return "test it first, for example a block IF {0}<=0, a block SETAL(65000), a block ENDIF";
+    case Language::kFanuc:
+      return "test it first, for example IF[{0} EQ 0]THEN #3000=1";
+    default:
+      return {};
+  }
+}
+
 std::span<const LanguageInfo> Languages() { return kLanguageInfos; }
 
 const LanguageInfo& InfoOf(Language language) { return kLanguageInfos[static_cast<std::size_t>(language)]; }

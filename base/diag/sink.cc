@@ -41,6 +41,15 @@ Diagnostic& Sink::Add(Code code, const SourceRange& at, fmt::format_args args) {
   return suppressed_;
 }
 
+void Sink::SetSeverity(Diagnostic& finding, Severity severity) {
+  const auto count = [this](Severity of) -> std::size_t* {
+    return of == Severity::kError ? &errors_ : of == Severity::kWarning ? &warnings_ : nullptr;
+  };
+  if (std::size_t* const before = count(finding.severity)) --*before;
+  if (std::size_t* const now = count(severity)) ++*now;
+  finding.severity = severity;
+}
+
 void Sink::SortByPlace() {
   // An invalid file id is the largest one, so findings without a place sort last by themselves.
   std::ranges::stable_sort(all_, {}, [](const Diagnostic& diagnostic) {

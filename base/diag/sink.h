@@ -23,6 +23,13 @@ class Sink {
   Diagnostic& Report(Code code, const SourceRange& at, const Args&... args) {
     return Add(code, at, fmt::make_format_args(args...));
   }
+  /// As Report, with another severity than that of the registry: how sure the finding is decides it.
+  template <class... Args>
+  Diagnostic& ReportAs(Severity severity, Code code, const SourceRange& at, const Args&... args) {
+    Diagnostic& finding = Add(code, at, fmt::make_format_args(args...));
+    SetSeverity(finding, severity);
+    return finding;
+  }
 
   /// Counts include suppressed findings.
   [[nodiscard]] std::size_t ErrorCount() const { return errors_; }
@@ -47,6 +54,7 @@ class Sink {
 
  private:
   Diagnostic& Add(Code code, const SourceRange& at, fmt::format_args args);
+  void SetSeverity(Diagnostic& finding, Severity severity);
 
   std::deque<Diagnostic> all_;  // references stay valid when it grows
   Diagnostic suppressed_{};     // takes what is added to a finding over the cap

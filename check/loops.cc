@@ -1,0 +1,265 @@
+// Loops of the structure that never run or never end.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "check/value_rules.h"
+
+namespace ncport::check {
+
+using ir::BlockId;
+using ir::Expr;
+using ir::ExprId;
+using ir::ExprOp;
+using ir::WordOp;
+using ir::analysis::Edge;
+using ir::analysis::EdgeKind;
+
+namespace {
+
+class Loops final : public ValueRule {
+ public:
+  Loops(const ValueRuleInput& input, ValueFindings& findings, const ir::analysis::FlowGraphs& graphs)
+      : ValueRule(input, findings), graphs_(graphs) {}
+
+  void Condition(const Site& site, ExprId, const Interval& truth) override { See(site, truth); }
+  void CountedLoop(const Site& site, const Interval& start, const Interval& end, const Interval& step) override {
+    Interval runs = ir::analysis::Bool(true, true);
+    if (step.low >= 0) runs = ir::analysis::Compared(ExprOp::kLessEqual, start, end, input_.machine.compare_tolerance);
+    if (step.high < 0)
+      runs = ir::analysis::Compared(ExprOp::kGreaterEqual, start, end, input_.machine.compare_tolerance);
+    See(site, runs);
+    if (runs.HasNumber() && runs.high == 0 && !ranges_.contains(site.block.value))
+      ranges_[site.block.value] = fmt::format("{} to {}", check::TextOf(start), check::TextOf(end));
+  }
+
+  void Finish(diag::Sink& sink) override {
+    for (const ir::ProgramId program : input_.module.programs.Ids()) {
+      if (input_.module.programs[program].library) continue;
+      for (const BlockId block : input_.module.programs[program].blocks) Look(program, block, sink);
+    }
+  }
+
+ private:
+  void See(const Site& site, const Interval& truth) {
+    Interval& known = truths_.try_emplace(site.block.value, Interval::None()).first->second;
+    known = ir::analysis::Join(known, truth);
+  }
+
+  [[nodiscard]] std::optional<WordOp> MarkOf(const ir::Block& block) const {
+    for (const ir::WordId id : block.words) {
+      const WordOp op = input_.module.words[id].op;
+      if (ir::IsStructureMark(op)) return op;
+    }
+    return std::nullopt;
+  }
+
+  void Look(ir::ProgramId program, BlockId id, diag::Sink& sink) {
+    const ir::Block& block = input_.module.blocks[id];
+    if (!block.link.Valid() || (block.flags & ir::Block::kRefused) != 0) return;
+    const std::optional<WordOp> mark = MarkOf(block);
+    if (!mark) return;
+    const ir::analysis::Cfg& graph = graphs_.Of(program);
+    if (!graph.Reachable(id)) return;
+    const auto truth = truths_.find(id.value);
+    const bool seen = truth != truths_.end() && truth->second.HasNumber();
+    const SourceRange at = input_.module.RangeOf(block, input_.module.words[block.words[0]]);
+    if ((*mark == WordOp::kWhile || *mark == WordOp::kFor) && seen && truth->second.high == 0) {
+      diag::Diagnostic& finding = sink.Report(diag::Code::kLoopNeverRuns, at);
+      const auto range = ranges_.find(id.value);
+      if (range != ranges_.end()) finding.notes.push_back({{}, fmt::format("it would count from {}", range->second)});
+      return;
+    }
+    if (graph.Opaque()) return;
+    switch (*mark) {
+      case WordOp::kWhile: {
+        const bool fixed = seen && truth->second.low == 1;
+        const bool frozen = !fixed && Frozen(program, id, block.link, id);
+        if ((fixed || frozen) && !LeavesElsewhere(graph, id, block.link)) Endless(at, id, frozen, sink);
+        return;
+      }
+      case WordOp::kLoop:
+        if (!LeavesElsewhere(graph, id, block.link)) Endless(at, id, false, sink);
+        return;
+      case WordOp::kUntil: {
+        const bool fixed = seen && truth->second.high == 0;
+        const bool frozen = !fixed && Frozen(program, block.link, id, id);
+        if ((fixed || frozen) && !LeavesElsewhere(graph, block.link, id)) Endless(at, id, frozen, sink);
+        return;
+      }
+      default:
+        return;
+    }
+  }
+
+  void Endless(const SourceRange& at, BlockId id, bool frozen, diag::Sink& sink) {
+    diag::Diagnostic& finding = sink.Report(diag::Code::kEndlessLoop, at);
+    if (!frozen) return;
+    const ir::Word& word = input_.module.words[input_.module.blocks[id].words[0]];
+    std::set<std::string> names;
+    Site site;
+    site.block = id;
+    CollectNames(site, word.value, names);
+    std::string list;
+    for (const std::string& name : names) list += list.empty() ? name : ", " + name;
+    finding.notes.push_back({{}, fmt::format("nothing in it changes {}", list)});
+  }
+
+  void CollectNames(const Site& site, ExprId id, std::set<std::string>& names) const {
+    const Expr& expr = input_.module.exprs[id];
+    if (expr.op == ExprOp::kVariable || expr.op == ExprOp::kCell) names.insert(TextOf(site, id));
+    ForOperands(expr, [&](ExprId operand) { CollectNames(site, operand, names); });
+  }
+
+  template <class Visit>
+  void ForOperands(const Expr& expr, Visit visit) const {
+    switch (ir::OperandsOf(expr.op)) {
+      case ir::Operands::kLeaf:
+        return;
+      case ir::Operands::kUnary:
+        return visit(ExprId{std::size_t{expr.a}});
+      case ir::Operands::kBinary:
+        visit(ExprId{std::size_t{expr.a}});
+        return visit(ExprId{std::size_t{expr.b}});
+      case ir::Operands::kList:
+        for (std::uint32_t i = 0; i < expr.count; ++i) visit(input_.module.Item(expr.b + i));
+        return;
+    }
+  }
+
+  /// A way out of the blocks from `first` to `last` other than their own test.
+  [[nodiscard]] bool LeavesElsewhere(const ir::analysis::Cfg& graph, BlockId first, BlockId last) const {
+    for (std::uint32_t i = first.value; i <= last.value; ++i) {
+      const BlockId block{std::size_t{i}};
+      const bool own_test = block == first || block == last;
+      for (const Edge& edge : graph.Successors(block)) {
+        if (!edge.to.Valid()) {
+          // The text may end behind the loop.
+          if (edge.kind != EdgeKind::kTextEnd && edge.kind != EdgeKind::kMissing) return true;
+          continue;
+        }
+        const bool inside = edge.to.value >= first.value && edge.to.value <= last.value;
+        const bool test = own_test && (edge.kind == EdgeKind::kFalse || edge.kind == EdgeKind::kNext);
+        if (!inside && !test) return true;
+      }
+      // Something that was not understood may leave.
+      if ((input_.module.blocks[block].flags & ir::Block::kRefused) != 0) return true;
+    }
+    return false;
+  }
+
+  /// Nothing in the blocks can change the truth of the condition of `test`.
+  [[nodiscard]] bool Frozen(ir::ProgramId program, BlockId first, BlockId last, BlockId test) const {
+    const ir::Word& word = input_.module.words[input_.module.blocks[test].words[0]];
+    if (!word.value.Valid()) return false;
+    std::set<std::pair<std::uint32_t, std::uint64_t>> read;
+    bool shared = false;
+    if (!Reads(program, word.value, read, shared) || read.empty()) return false;
+    for (std::uint32_t i = first.value; i <= last.value; ++i) {
+      const ir::Block& block = input_.module.blocks[BlockId{std::size_t{i}}];
+      for (const ir::WordId id : block.words) {
+        if (Changes(input_.module.words[id], read, shared)) return false;
+      }
+    }
+    return true;
+  }
+
+  /// What the condition reads; false if something else than the program can change it.
+  bool Reads(ir::ProgramId program, ExprId id, std::set<std::pair<std::uint32_t, std::uint64_t>>& read,
+             bool& shared) const {
+    const Expr& expr = input_.module.exprs[id];
+    switch (expr.op) {
+      case ExprOp::kVariable: {
+        const ir::Variable& variable = input_.module.variables[ir::VariableId{std::size_t{expr.a}}];
+        if (variable.by_reference) return false;
+        shared = shared || variable.owner != program ||
+                 (variable.scope != ir::Scope::kLocal && variable.scope != ir::Scope::kParameter);
+        read.emplace(0, expr.a);
+        return true;
+      }
+      case ExprOp::kCell:
+        shared = true;
+        read.emplace(1, std::uint64_t{expr.a} << 32U | expr.b);
+        return true;
+      case ExprOp::kElement:
+      case ExprOp::kCellAt:
+      case ExprOp::kSystem:
+      case ExprOp::kName:
+      case ExprOp::kText:
+      case ExprOp::kConcat:
+        return false;
+      case ExprOp::kFunction: {
+        const auto function = static_cast<ir::Function>(expr.a);
+        if (function > ir::Function::kAddDecimalPoint) return false;
+        break;
+      }
+      default:
+        break;
+    }
+    bool ok = true;
+    ForOperands(expr, [&](ExprId operand) { ok = Reads(program, operand, read, shared) && ok; });
+    return ok;
+  }
+
+  [[nodiscard]] bool Changes(const ir::Word& word, const std::set<std::pair<std::uint32_t, std::uint64_t>>& read,
+                             bool shared) const {
+    const auto writes = [&](ExprId place) {
+      const Expr& expr = input_.module.exprs[place];
+      switch (expr.op) {
+        case ExprOp::kVariable:
+          return read.contains({0, expr.a});
+        case ExprOp::kCell:
+          return read.contains({1, std::uint64_t{expr.a} << 32U | expr.b});
+        case ExprOp::kElement:
+          return false;
+        default:
+          return true;
+      }
+    };
+    switch (word.op) {
+      case WordOp::kAssign:
+        return writes(word.Extra<ExprId>());
+      case WordOp::kFor:
+        return writes(input_.module.fors[word.Extra<ir::ForId>()].variable);
+      case WordOp::kDefine:
+        return read.contains({0, word.extra});
+      case WordOp::kAssignList:
+      case WordOp::kVerbatim:
+        return true;
+      case WordOp::kModalCall:
+        return shared;
+      case WordOp::kCall: {
+        if (shared) return true;
+        if (!word.Extra<ir::CallId>().Valid()) return true;
+        const ir::Call& call = input_.module.calls[word.Extra<ir::CallId>()];
+        if (call.form == ir::CallForm::kBlockRange || call.from_block) return true;
+        for (const ir::ArgId arg : call.args) {
+          const ExprId value = input_.module.args[arg].value;
+          if (value.Valid() && input_.module.exprs[value].op == ExprOp::kVariable && writes(value)) return true;
+        }
+        return false;
+      }
+      default:
+        // Motion runs a modal subprogram, which may write what all see.
+        return shared && word.phase == ir::Phase::kMotion && has_modal_;
+    }
+  }
+
+  const ir::analysis::FlowGraphs& graphs_;
+  std::map<std::uint32_t, Interval> truths_;
+  std::map<std::uint32_t, std::string> ranges_;
+  bool has_modal_ = std::ranges::any_of(input_.module.words.All(),
+                                        [](const ir::Word& word) { return word.op == WordOp::kModalCall; });
+};
+
+}  // namespace
+
+std::unique_ptr<ValueRule> MakeLoops(const ValueRuleInput& input, ValueFindings& findings,
+                                     const ir::analysis::FlowGraphs& graphs) {
+  return std::make_unique<Loops>(input, findings, graphs);
+}
+
+}  // namespace ncport::check

@@ -1,0 +1,66 @@
+#include "check/structure_rules.h"
+
+namespace ncport::check {
+
+namespace {
+
+using ir::WordOp;
+
+/// Words that do something. An end word or a mark that control never comes to is no mistake: programs are written with
+/// both.
+bool DoesSomething(const ir::Module& module, const ir::Block& block) {
+  const auto does = [&](ir::WordId id) {
+    switch (const WordOp op = module.words[id].op; op) {
+      case WordOp::kProgramEnd:
+      case WordOp::kReturn:
+      case WordOp::kRestart:
+      case WordOp::kFileMark:
+      case WordOp::kHeader:
+      case WordOp::kDefine:
+      case WordOp::kExtern:
+      case WordOp::kVerbatim:
+      case WordOp::kInert:
+      case WordOp::kMessage:
+      case WordOp::kJump:
+        return false;
+      default:
+        return !ir::IsStructureMark(op);
+    }
+  };
+  for (const ir::WordId id : block.words) {
+    if (does(id)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void CheckUnreachable(const ir::Module& module, ir::ProgramId program, const ir::analysis::FlowGraphs& graphs,
+                      diag::Sink& sink) {
+  const ir::analysis::Cfg& graph = graphs.Of(program);
+  if (graph.Opaque()) return;
+  const IdRange<ir::BlockId> blocks = graph.Blocks();
+  // Calls of block ranges and from a block start where no way of the program leads.
+  for (const ir::Call& call : module.calls.All()) {
+    if (call.form == ir::CallForm::kBlockRange || call.from_block) return;
+  }
+  for (std::uint32_t i = 0; i < blocks.count; ++i) {
+    if (graph.Reachable(blocks[i])) continue;
+    std::uint32_t last = i;
+    ir::BlockId first;
+    bool counts = false;
+    for (; last < blocks.count && !graph.Reachable(blocks[last]); ++last) {
+      const ir::Block& block = module.blocks[blocks[last]];
+      // A refused block has its finding, and what it would do is not known.
+      if (!first.Valid() && !block.words.Empty() && DoesSomething(module, block)) first = blocks[last];
+      counts = counts || (block.flags & ir::Block::kRefused) != 0;
+    }
+    if (first.Valid() && !counts) {
+      const ir::Block& block = module.blocks[first];
+      sink.Report(diag::Code::kUnreachableBlock, module.RangeOf(block, module.words[block.words[0]]));
+    }
+    i = last;
+  }
+}
+
+}  // namespace ncport::check

@@ -1,0 +1,26 @@
+// The rules that rest on the values of variables, one file a rule, and all of them over a module.
+#pragma once
+
+#include <memory>
+
+#include "check/value_findings.h"
+#include "ir/analysis/call_graph.h"
+#include "ir/analysis/cfg.h"
+
+namespace ncport::check {
+
+std::unique_ptr<ValueRule> MakeDivisionByZero(const ValueRuleInput& input, ValueFindings& findings);
+std::unique_ptr<ValueRule> MakeFunctionDomain(const ValueRuleInput& input, ValueFindings& findings);
+std::unique_ptr<ValueRule> MakeNumberRange(const ValueRuleInput& input, ValueFindings& findings);
+std::unique_ptr<ValueRule> MakeArrayIndex(const ValueRuleInput& input, ValueFindings& findings);
+/// Loops that never run or never end.
+std::unique_ptr<ValueRule> MakeLoops(const ValueRuleInput& input, ValueFindings& findings,
+                                     const ir::analysis::FlowGraphs& graphs);
+
+/// Reports what the rules find. Severity follows certainty: an error where every run that comes there alarms, a warning
+/// where the program lets such values through.
+ir::analysis::RangeStatistics CheckValues(const ir::Module& module, const ir::Machine& machine,
+                                          const ir::analysis::FlowGraphs& graphs, const ir::analysis::CallGraph& calls,
+                                          const ValueRuleOptions& options, diag::Sink& sink);
+
+}  // namespace ncport::check

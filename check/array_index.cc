@@ -19,28 +19,39 @@ class ArrayIndex final : public ValueRule {
              Lookup& lookup) override {
     if (!index.HasNumber() || (index.low >= 0 && index.high <= size - 1.0)) return;
     const bool outside = index.high < 0 || index.low > size - 1.0;
-    // A bound that no test of the program set says nothing.
-    const bool known = !index.Has(Interval::kInput) && index.IsBounded();
-    const Certainty certainty = outside ? Certainty::kCertain : known ? Certainty::kLikely : Certainty::kPossible;
+    const Certainty certainty = outside          ? Certainty::kCertain
+                                : IsKnown(index) ? Certainty::kLikely
+                                                 : Certainty::kPossible;
     if (!findings_.IsNews(diag::Code::kArrayIndex, element, dimension, certainty)) return;
     const Expr& expr = input_.module.exprs[element];
     ValueFinding finding{.code = diag::Code::kArrayIndex, .certainty = certainty};
-    finding.first = outside ? check::TextOf(index)
-                            : fmt::format("{} (can be {})", TextOf(site, Item(expr, dimension)), check::TextOf(index));
-    finding.second =
-        expr.op == ExprOp::kElement
-            ? std::string(input_.module.View(input_.module.variables[ir::VariableId{std::size_t{expr.a}}].name))
-            : std::string(input_.module.View(input_.module.spaces[ir::SpaceId{std::size_t{expr.b}}].name));
+    finding.first = outside || dimension == kListEnd
+                        ? check::TextOf(index)
+                        : fmt::format("{} (can be {})", TextOf(site, Item(expr, dimension)), check::TextOf(index));
+    finding.second = NameOf(expr);
     finding.third = fmt::format("{}", size - 1);
     finding.at = RangeOf(site, element);
-    finding.notes = Reasons(site, Item(expr, dimension), lookup);
+    if (dimension == kListEnd) {
+      finding.notes.push_back({{}, "the list has more values than elements are left"});
+    } else {
+      finding.notes = Reasons(site, Item(expr, dimension), lookup);
+    }
     if (dimension == 0) finding.control = ControlAlarm(ir::AlarmClass::kIndex);
     findings_.Add(element, dimension, std::move(finding));
   }
 
  private:
+  [[nodiscard]] std::string NameOf(const Expr& expr) const {
+    const ir::Module& module = input_.module;
+    if (expr.op == ExprOp::kElement)
+      return std::string(module.View(module.variables[ir::VariableId{std::size_t{expr.a}}].name));
+    if (expr.op == ExprOp::kSystem)
+      return std::string(module.View(module.systems[ir::SystemId{std::size_t{expr.a}}].name));
+    return std::string(module.View(module.spaces[ir::SpaceId{std::size_t{expr.b}}].name));
+  }
   [[nodiscard]] ExprId Item(const Expr& expr, std::uint32_t dimension) const {
-    return expr.op == ExprOp::kElement ? input_.module.Item(expr.b + dimension) : ExprId{std::size_t{expr.a}};
+    return expr.op == ExprOp::kElement || expr.op == ExprOp::kSystem ? input_.module.Item(expr.b + dimension)
+                                                                     : ExprId{std::size_t{expr.a}};
   }
 };
 

@@ -92,7 +92,7 @@ class FunctionDomain final : public ValueRule {
     // Growth that no test stops is no sign, and neither is an input of the operator.
     if (a.Has(Interval::kEntry) && (function == Function::kSqrt || function == Function::kLn))
       return Certainty::kLikely;
-    const bool known = !a.Has(Interval::kInput) && a.IsBounded() && (count < 2 || args[1].IsBounded());
+    const bool known = IsKnown(a) && (count < 2 || IsKnown(args[1]));
     const bool usual = function == Function::kSqrt || function == Function::kLn || function == Function::kAsin ||
                        function == Function::kAcos || function == Function::kBound;
     return known && usual ? Certainty::kLikely : Certainty::kPossible;

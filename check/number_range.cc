@@ -55,12 +55,7 @@ class NumberRange final : public ValueRule {
     const double least = whole ? static_cast<double>(input_.machine.int_min) : -most;
     if (result.HasNumber() && result.low >= least && result.high <= most) return;
     const bool certain = !result.HasNumber() || result.low > most || result.high < least;
-    // Growth that no test stops, and inputs, say nothing.
-    const auto known = [&](const Interval& value) {
-      return !value.Has(Interval::kInput) && value.low > static_cast<double>(input_.machine.int_min) &&
-             value.high < static_cast<double>(input_.machine.int_max);
-    };
-    const bool likely = whole && known(a) && known(b);
+    const bool likely = whole && IsKnown(a) && IsKnown(b);
     const Certainty certainty = certain ? Certainty::kCertain : likely ? Certainty::kLikely : Certainty::kPossible;
     if (!findings_.IsNews(diag::Code::kOverflow, id, 0, certainty)) return;
     ValueFinding finding{.code = diag::Code::kOverflow, .certainty = certainty};
@@ -78,7 +73,7 @@ class NumberRange final : public ValueRule {
     const double most = is_char ? 255 : static_cast<double>(input_.machine.int_max);
     if (value.low > least - 0.5 && value.high < most + 0.5) return Fraction(site, id, value);
     const bool outside = value.high <= least - 0.5 || value.low >= most + 0.5;
-    const bool likely = !value.Has(Interval::kInput) && value.IsBounded();
+    const bool likely = IsKnown(value);
     const Certainty certainty = outside ? Certainty::kCertain : likely ? Certainty::kLikely : Certainty::kPossible;
     if (!findings_.IsNews(diag::Code::kOutOfRange, id, 0, certainty)) return;
     ValueFinding finding{.code = diag::Code::kOutOfRange, .certainty = certainty};

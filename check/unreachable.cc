@@ -44,18 +44,22 @@ void CheckUnreachable(const ir::Module& module, ir::ProgramId program, const ir:
   for (const ir::Call& call : module.calls.All()) {
     if (call.form == ir::CallForm::kBlockRange || call.from_block) return;
   }
+  // A block that was not understood may be a jump or a call to any block with a name.
+  bool refused = false;
+  for (const ir::BlockId block : blocks) refused = refused || (module.blocks[block].flags & ir::Block::kRefused) != 0;
   for (std::uint32_t i = 0; i < blocks.count; ++i) {
     if (graph.Reachable(blocks[i])) continue;
     std::uint32_t last = i;
     ir::BlockId first;
-    bool counts = false;
+    bool unclear = false;
     for (; last < blocks.count && !graph.Reachable(blocks[last]); ++last) {
       const ir::Block& block = module.blocks[blocks[last]];
       // A refused block has its finding, and what it would do is not known.
       if (!first.Valid() && !block.words.Empty() && DoesSomething(module, block)) first = blocks[last];
-      counts = counts || (block.flags & ir::Block::kRefused) != 0;
+      const bool named = block.label.Valid() || block.number != ir::Block::kNoNumber;
+      unclear = unclear || (block.flags & ir::Block::kRefused) != 0 || (refused && named);
     }
-    if (first.Valid() && !counts) {
+    if (first.Valid() && !unclear) {
       const ir::Block& block = module.blocks[first];
       sink.Report(diag::Code::kUnreachableBlock, module.RangeOf(block, module.words[block.words[0]]));
     }

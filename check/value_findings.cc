@@ -35,6 +35,11 @@ std::string TextOf(const Interval& values) {
   return fmt::format("{} to {}", NumberText(values.low), NumberText(values.high));
 }
 
+bool IsKnown(const Interval& values) {
+  constexpr double kLargest = 1073741824.0;
+  return !values.Has(Interval::kInput) && values.low > -kLargest && values.high < kLargest;
+}
+
 bool ValueFindings::IsNews(diag::Code code, ExprId expr, std::uint32_t part, Certainty certainty) const {
   if (certainty == Certainty::kPossible && !input_.options.all) return false;
   const auto known = findings_.find({code, expr.value, part});

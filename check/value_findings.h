@@ -85,7 +85,11 @@ class ValueRule : public ir::analysis::RangeObserver {
   ValueFindings& findings_;
 };
 
-/// "0", "-1 to 5", "5 and more".
+/// "0", "-1 to 5", "5 or more".
 std::string TextOf(const ir::analysis::Interval& values);
+
+/// The program itself sets these bounds: they follow from no input, and no loop without a test or range of a type made
+/// them as wide as they are.
+bool IsKnown(const ir::analysis::Interval& values);
 
 }  // namespace ncport::check

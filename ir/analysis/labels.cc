@@ -44,13 +44,28 @@ BlockId LabelTable::Find(const Target& target, BlockId from, Search search, std:
   if (expr.op == ExprOp::kText) {
     StringId text;
     text.value = expr.a;
-    return FindLabel(module_.View(text), from, search, skip_levels);
+    return FindText(module_.View(text), from, search, skip_levels);
   }
   if (expr.op != ExprOp::kLiteral) return {};
-  const bool is_number = expr.number >= 0 && expr.number < std::numeric_limits<std::uint32_t>::max() &&
-                         std::floor(expr.number) == expr.number;
-  if (!is_number) return {};
-  return FindNumber(static_cast<std::uint32_t>(expr.number), false, from, search, skip_levels);
+  const double number = std::round(expr.number);  // as a run does it
+  if (!(number >= 0 && number < std::numeric_limits<std::uint32_t>::max())) return {};
+  return FindNumber(static_cast<std::uint32_t>(number), false, from, search, skip_levels);
+}
+
+/// A text holds a label, or a block number as it is written: N30, 30, :30.
+BlockId LabelTable::FindText(std::string_view text, BlockId from, Search search, std::uint16_t skip_levels) const {
+  const BlockId found = FindLabel(text, from, search, skip_levels);
+  if (found.Valid() || text.empty()) return found;
+  const bool main_block = text.front() == ':';
+  const std::string_view digits = text.substr(main_block || text.front() == 'N' || text.front() == 'n' ? 1 : 0);
+  constexpr std::size_t kMostDigits = 9;
+  if (digits.empty() || digits.size() > kMostDigits) return {};
+  std::uint32_t number = 0;
+  for (const char digit : digits) {
+    if (digit < '0' || digit > '9') return {};
+    number = number * 10 + static_cast<std::uint32_t>(digit - '0');
+  }
+  return FindNumber(number, main_block, from, search, skip_levels);
 }
 
 BlockId LabelTable::FindLabel(std::string_view label, BlockId from, Search search, std::uint16_t skip_levels) const {

@@ -43,6 +43,7 @@ class LabelTable {
 
   [[nodiscard]] std::string Key(std::string_view label) const;
   [[nodiscard]] const Places* LabelPlaces(std::string_view label) const;
+  [[nodiscard]] BlockId FindText(std::string_view text, BlockId from, Search search, std::uint16_t skip_levels) const;
   [[nodiscard]] BlockId Nearest(const Places* places, BlockId from, Search search, std::uint16_t skip_levels) const;
   [[nodiscard]] bool Visible(BlockId block, std::uint16_t skip_levels) const;
 

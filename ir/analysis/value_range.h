@@ -58,7 +58,9 @@ class RangeObserver {
   virtual void Operation(const RangeSite&, ExprId, const Interval* /*operands*/, std::size_t /*count*/, RangeLookup&) {}
   /// `value` is converted to `type` where it is written to a variable, or by a Convert node (`expr`).
   virtual void Conversion(const RangeSite&, ExprId /*expr*/, Type, const Interval& /*value*/, RangeLookup&) {}
-  /// An index of dimension `dimension` (from 0) of an array with `size` elements there.
+  /// An index of dimension `dimension` (from 0) of an array with `size` elements there; kListEnd: the last element that
+  /// a list of values fills, of all `size` elements of the array.
+  static constexpr std::uint32_t kListEnd = 0xFFFFU;
   virtual void Index(const RangeSite&, ExprId /*element*/, std::uint32_t /*dimension*/, const Interval&,
                      std::uint32_t /*size*/, RangeLookup&) {}
   /// A value that is written to a place, after its conversion.

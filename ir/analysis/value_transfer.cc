@@ -152,7 +152,7 @@ Interval ValueTransfer::Eval(ExprId id) {
       return space.Valid() ? ValueOf(space, expr.b) : Interval::Unknown(Interval::kInput | Interval::kVacant);
     }
     case ExprOp::kCellAt:
-      return EvalCellAt(expr);
+      return EvalCellAt(id, expr);
     case ExprOp::kSystem:
       return EvalSystem(expr);
     case ExprOp::kGroup:
@@ -405,14 +405,25 @@ SpaceId ValueTransfer::SpaceOf(SpaceId any, double number) const {
   return {};
 }
 
-Interval ValueTransfer::EvalCellAt(const Expr& expr) {
+Interval ValueTransfer::EvalCellAt(ExprId id, const Expr& expr) {
   const Interval index = Rounded(Eval(ExprId{std::size_t{expr.a}}));
   const SpaceId named{std::size_t{expr.b}};
+  CheckCell(id, named, index);
   if (index.IsPoint()) {
     const SpaceId space = SpaceOf(named, index.low);
     if (space.Valid()) return ValueOf(space, static_cast<std::uint32_t>(index.low));
   }
   return Interval::Unknown(Interval::kInput | Interval::kVacant);
+}
+
+/// Numbers of cells that do not exist. Where the machine has variables of its own beside the cells, only it knows.
+void ValueTransfer::CheckCell(ExprId id, SpaceId named, const Interval& index) {
+  if (observer_ == nullptr || !machine_.numbered_systems.empty()) return;
+  std::uint32_t size = 0;
+  for (const SpaceId other : module_.spaces.Ids()) {
+    if (module_.spaces[other].name == module_.spaces[named].name) size = std::max(size, module_.spaces[other].last + 1);
+  }
+  observer_->Index(site_, id, 0, index, size, *this);
 }
 
 void ValueTransfer::EvalIndices(ExprId id, const Expr& expr) {
@@ -486,6 +497,7 @@ void ValueTransfer::Store(ExprId place, const Interval& value) {
       if (expr.op == ExprOp::kCellAt) {
         index = Rounded(Eval(ExprId{std::size_t{expr.a}}));
         named = SpaceId{std::size_t{expr.b}};
+        CheckCell(place, named, index);
       }
       const auto converted = [&](const Space& space) {
         Interval result = WithoutVacant(value);
@@ -522,11 +534,21 @@ void ValueTransfer::Store(ExprId place, const Interval& value) {
       return;
     }
     case ExprOp::kSystem:
-      for (std::uint32_t i = 0; i < expr.count; ++i) (void)Eval(module_.Item(expr.b + i));
-      return;
+      return StoreSystem(place, expr, value);
     default:
       return;
   }
+}
+
+void ValueTransfer::StoreSystem(ExprId place, const Expr& expr, const Interval& value) {
+  const System& system = module_.systems[SystemId{std::size_t{expr.a}}];
+  for (std::uint32_t i = 0; i < expr.count; ++i) {
+    const Interval index = Rounded(Eval(module_.Item(expr.b + i)));
+    constexpr std::uint32_t kCells = 4'000'000'000U;
+    if (observer_ != nullptr && i == 0 && system.kind == SystemKind::kUserMemory)
+      observer_->Index(site_, place, 0, index, kCells, *this);
+  }
+  if (system.kind == SystemKind::kUserMemory) (void)ConvertedTo(place, system.type, WithoutVacant(value));
 }
 
 void ValueTransfer::Define(VariableId id) {
@@ -566,11 +588,36 @@ void ValueTransfer::Define(VariableId id) {
   }
 }
 
+/// The last element that a list of values fills, counted through all dimensions.
+void ValueTransfer::CheckListEnd(const AssignList& list, ExprId id) {
+  const Expr& place = module_.exprs[id];
+  const Variable& variable = module_.variables[VariableId{std::size_t{place.a}}];
+  if (observer_ == nullptr || variable.dimension_count == 0) return;
+  Interval at = Interval::Point(0);
+  double size = 1;
+  for (std::uint32_t i = 0; i < variable.dimension_count; ++i) {
+    if (variable.dimensions[i] == 0) return;  // as large as what was passed
+    size *= variable.dimensions[i];
+    at = Product(at, Interval::Point(variable.dimensions[i]));
+    if (place.op == ExprOp::kElement && i < place.count) at = Sum(at, Rounded(Evaluate(module_.Item(place.b + i))));
+  }
+  Interval values = Interval::Point(list.values.count);
+  if (list.repeat) values = list.count.Valid() ? Rounded(Evaluate(list.count)) : Interval::Point(0);
+  if (!at.HasNumber() || !values.HasNumber() || size > 1e9) return;
+  const Interval last = Difference(Sum(at, values), Interval::Point(1));
+  // No value at all fills no element.
+  if (last.high >= size)
+    observer_->Index(site_, id, RangeObserver::kListEnd, Meet(last, {0, kInfinity, 0}),
+                     static_cast<std::uint32_t>(size), *this);
+}
+
 void ValueTransfer::Assign(const AssignList& list) {
   if (!list.place.Valid()) return;
   if (list.count.Valid()) (void)Eval(list.count);
   const Expr& place = module_.exprs[list.place];
   const bool cells = place.op == ExprOp::kCell || place.op == ExprOp::kCellAt;
+  if (place.op == ExprOp::kElement) EvalIndices(list.place, place);
+  if (place.op == ExprOp::kElement || place.op == ExprOp::kVariable) CheckListEnd(list, list.place);
   for (const ExprItemId item : list.values) {
     const ExprId expr = module_.Item(item.value);
     if (!expr.Valid()) continue;

@@ -62,7 +62,10 @@ class ValueTransfer : public RangeLookup {
   Interval EvalComparison(const Expr& expr);
   Interval EvalFunction(ExprId id, const Expr& expr);
   Interval EvalSystem(const Expr& expr);
-  Interval EvalCellAt(const Expr& expr);
+  Interval EvalCellAt(ExprId id, const Expr& expr);
+  void CheckListEnd(const AssignList& list, ExprId id);
+  void StoreSystem(ExprId place, const Expr& expr, const Interval& value);
+  void CheckCell(ExprId id, SpaceId named, const Interval& index);
   void EvalIndices(ExprId id, const Expr& expr);
   [[nodiscard]] Interval Operand(const Interval& value, const Expr& expr) const;
   [[nodiscard]] Interval Finished(Interval value, const Expr& expr, bool integer) const;

@@ -51,6 +51,12 @@ constexpr Direction kDirections[] = {
      .target_mill = "mazak-mill",
      .target_lathe = "mazak-qtn",
      .without = {kWithTools, kWithoutTools}},
+    {.name = "check",
+     .title = "alarms of runs with changed values: all announced by check",
+     .flavour = Flavour::kSinumerik,
+     .mill = "sinumerik-840d-mill",
+     .lathe = "sinumerik-840d-lathe",
+     .check = CheckAnnounced},
 };
 
 }  // namespace

@@ -32,7 +32,9 @@ class ArrayIndex final : public ValueRule {
     finding.third = fmt::format("{}", size - 1);
     finding.at = RangeOf(site, element);
     if (dimension == kListEnd) {
-      finding.notes.push_back({{}, "the list has more values than elements are left"});
+      finding.notes.push_back({{},
+                               index.low < 0 ? "a list cannot fill fewer elements than none"
+                                             : "the list has more values than elements are left"});
     } else {
       finding.notes = Reasons(site, Item(expr, dimension), lookup);
     }

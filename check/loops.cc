@@ -76,7 +76,7 @@ class Loops final : public ValueRule {
     if (graph.Opaque()) return;
     switch (*mark) {
       case WordOp::kWhile: {
-        const bool fixed = seen && truth->second.low == 1;
+        const bool fixed = seen && truth->second.low == 1 && IsConstant(block);
         const bool frozen = !fixed && Frozen(program, id, block.link, id);
         if ((fixed || frozen) && !LeavesElsewhere(graph, id, block.link)) Endless(at, id, frozen, sink);
         return;
@@ -85,7 +85,7 @@ class Loops final : public ValueRule {
         if (!LeavesElsewhere(graph, id, block.link)) Endless(at, id, false, sink);
         return;
       case WordOp::kUntil: {
-        const bool fixed = seen && truth->second.high == 0;
+        const bool fixed = seen && truth->second.high == 0 && IsConstant(block);
         const bool frozen = !fixed && Frozen(program, block.link, id, id);
         if ((fixed || frozen) && !LeavesElsewhere(graph, block.link, id)) Endless(at, id, frozen, sink);
         return;
@@ -93,6 +93,23 @@ class Loops final : public ValueRule {
       default:
         return;
     }
+  }
+
+  /// A condition that reads nothing. Values that a division or a root let through keep others true as well, but such a
+  /// loop ends in an alarm.
+  [[nodiscard]] bool IsConstant(const ir::Block& block) const {
+    const ExprId condition = input_.module.words[block.words[0]].value;
+    return condition.Valid() && !ReadsAnything(condition);
+  }
+
+  [[nodiscard]] bool ReadsAnything(ExprId id) const {
+    const Expr& expr = input_.module.exprs[id];
+    if (expr.op == ExprOp::kVariable || expr.op == ExprOp::kElement || expr.op == ExprOp::kCell ||
+        expr.op == ExprOp::kCellAt || expr.op == ExprOp::kSystem || expr.op == ExprOp::kName)
+      return true;
+    bool reads = false;
+    ForOperands(expr, [&](ExprId operand) { reads = reads || ReadsAnything(operand); });
+    return reads;
   }
 
   void Endless(const SourceRange& at, BlockId id, bool frozen, diag::Sink& sink) {

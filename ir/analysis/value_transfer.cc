@@ -604,6 +604,8 @@ void ValueTransfer::CheckListEnd(const AssignList& list, ExprId id) {
   Interval values = Interval::Point(list.values.count);
   if (list.repeat) values = list.count.Valid() ? Rounded(Evaluate(list.count)) : Interval::Point(0);
   if (!at.HasNumber() || !values.HasNumber() || size > 1e9) return;
+  if (values.low < 0)
+    observer_->Index(site_, id, RangeObserver::kListEnd, values, static_cast<std::uint32_t>(size), *this);
   const Interval last = Difference(Sum(at, values), Interval::Point(1));
   // No value at all fills no element.
   if (last.high >= size)

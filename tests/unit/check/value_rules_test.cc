@@ -1,0 +1,247 @@
+// Rules that rest on values: programs that they must flag and programs that they must not. "CODE line severity" each.
+#include "check/value_rules.h"
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "check/structure_rules.h"
+#include "check/subject.h"
+#include "dialects/registry.h"
+#include "frontend/reader.h"
+
+namespace ncport::check {
+namespace {
+
+struct File {
+  std::string_view name, text;
+};
+
+struct Result {
+  std::string found;
+  std::string notes;
+  std::uint64_t steps = 0;
+};
+
+Result Check(std::string_view profile_name, const std::vector<File>& texts,
+             std::vector<ir::analysis::DeclaredRange> (*declare)(const ir::Module&) = nullptr) {
+  const dialects::Profile profile = dialects::BuiltIn(profile_name);
+  SourceFiles files;
+  ir::Module module;
+  diag::Sink sink;
+  for (const File& text : texts) {
+    const FileId file = files.Add(std::string(text.name), std::string(text.text));
+    (void)frontend::ReadFile(files, file, profile, {}, module, sink);
+  }
+  frontend::ResolveNames(files, module, profile, sink);
+  for (const diag::Diagnostic& finding : sink.All()) FAIL_CHECK(finding.at.line << ": " << finding.message);
+  const Subject subject(module, profile, {});
+  ValueRuleOptions options;
+  options.files = &files;
+  options.control = "CONTROL alarm";
+  if (declare != nullptr) options.declared = declare(module);
+  Result result;
+  result.steps = CheckValues(module, subject.machine, subject.graphs, subject.calls, options, sink).steps;
+  for (const ir::ProgramId program : module.programs.Ids()) {
+    CheckUnreachable(module, program, subject.graphs, sink);
+    CheckComparisons(module, program, sink);
+    CheckExactLoopEnds(module, program, sink);
+  }
+  sink.SortByPlace();
+  for (const diag::Diagnostic& finding : sink.All()) {
+    if (!result.found.empty()) result.found += ", ";
+    result.found += std::string(diag::InfoOf(finding.code).number) + " " + std::to_string(finding.at.line) +
+                    (finding.severity == diag::Severity::kError ? " error" : "");
+    for (const diag::Note& note : finding.notes) result.notes += note.text + "\n";
+  }
+  return result;
+}
+
+std::string Mill(std::string_view text) { return Check("sinumerik-840d-mill", {{"main.mpf", text}}).found; }
+std::string Sub(std::string_view text) { return Check("sinumerik-840d-mill", {{"sub.spf", text}}).found; }
+std::string Macro(std::string_view text) { return Check("fanuc-mill", {{"o1.nc", text}}).found; }
+std::string Set(std::string_view main, std::string_view sub) {
+  return Check("sinumerik-840d-mill", {{"main.mpf", main}, {"sub.spf", sub}}).found;
+}
+
+constexpr std::string_view kLayers = "PROC SUB(REAL DEPTH, REAL RALL)\nDEF INT LAYERS\nLAYERS=DEPTH DIV RALL\nM17\n";
+constexpr std::string_view kTested =
+    "PROC SUB(REAL DEPTH, REAL RALL)\nDEF INT LAYERS\nIF RALL<=0\nSETAL(65000)\nENDIF\nLAYERS=DEPTH DIV RALL\nM17\n";
+
+}  // namespace
+
+TEST_CASE("value rules: division by zero, certain") {
+  CHECK(Mill("R1=0\nR2=5/R1\nM30\n") == "NC3001 2 error");
+  CHECK(Mill("DEF INT CNT\nR2=5 DIV CNT\nM30\n") == "NC3001 2 error");
+  CHECK(Mill("R2=5 MOD (3-3)\nM30\n") == "NC3001 1 error");
+  CHECK(Macro("O1\n#1=0\n#2=5/#1\nM30\n") == "NC3001 3 error");
+  CHECK(Macro("O1\n#2=5/#1\nM30\n") == "NC3001 2 error");  // empty counts as 0
+  CHECK(Mill("R1=1\nR2=5/R1\nM30\n").empty());
+  CHECK(Mill("R2=5/R1\nM30\n").empty());  // an input of the operator
+  CHECK(Mill("R1=0\nIF R1<>0\nR2=5/R1\nENDIF\nM30\n").empty());
+}
+
+TEST_CASE("value rules: a divisor is reported once, further ones for the same 0 are not") {
+  CHECK(Mill("R1=0\nR2=5/R1\nR3=6/R1\nM30\n") == "NC3001 2 error");
+}
+
+TEST_CASE("value rules: division by a parameter") {
+  CHECK(Sub(kLayers) == "NC3001 3");
+  CHECK(Sub(kTested).empty());
+  CHECK(Set("SUB(10, 2.5)\nM30\n", kLayers).empty());
+  CHECK(Set("SUB(10, 2.5)\nSUB(10, -2.5)\nM30\n", kLayers).empty());
+  CHECK(Set("SUB(10, 0)\nM30\n", kTested).empty());
+  CHECK(Set("SUB(10, 2.5)\nSUB(10, 0)\nM30\n", kLayers) == "NC3001 3 error");
+  CHECK(Set("SUB(10)\nM30\n", kLayers) == "NC3001 3 error");
+  CHECK(Set("SUB(10, R1)\nM30\n", kLayers).empty());
+}
+
+TEST_CASE("value rules: the finding names the call") {
+  const Result zero = Check("sinumerik-840d-mill", {{"main.mpf", "R1=1\nSUB(10, 0)\nM30\n"}, {"sub.spf", kLayers}});
+  CHECK(zero.notes == "RALL is parameter 2 of SUB; the call in main.mpf:2 passes 0\n");
+  const Result missing = Check("sinumerik-840d-mill", {{"main.mpf", "SUB(10)\nM30\n"}, {"sub.spf", kLayers}});
+  CHECK(missing.notes == "RALL is parameter 2 of SUB; the call in main.mpf:1 leaves it out, so it is 0\n");
+  const Result alone = Check("sinumerik-840d-mill", {{"sub.spf", kLayers}});
+  CHECK(alone.notes == "RALL is parameter 2 of SUB; its callers are not known here\n");
+}
+
+TEST_CASE("value rules: tests in all forms narrow") {
+  CHECK(Sub("PROC SUB(REAL PA)\nIF (PA>0) AND (PA<5)\nR1=1/PA\nENDIF\nM17\n").empty());
+  CHECK(Sub("PROC SUB(REAL PA)\nIF (PA<=0) OR (PA>5) GOTOF LEAVE\nR1=1/PA\nLEAVE: M17\n").empty());
+  CHECK(Sub("PROC SUB(REAL PA)\nIF NOT (PA==0)\nR1=1/PA\nENDIF\nM17\n").empty());
+  CHECK(Sub("PROC SUB(REAL PA)\nIF ABS(PA)<0.001 GOTOF LEAVE\nR1=1/PA\nLEAVE: M17\n").empty());
+  CHECK(Sub("PROC SUB(REAL PA)\nWHILE PA>0\nR1=1/PA\nP1=PA-1\nENDWHILE\nM17\n").empty());
+  CHECK(Sub("PROC SUB(REAL PA)\nIF PA\nR1=1/PA\nENDIF\nM17\n").empty());
+  CHECK(Sub("PROC SUB(REAL PA)\nIF PA>=0\nR1=1/PA\nENDIF\nM17\n") == "NC3001 3");
+  CHECK(Sub("PROC SUB(REAL PA)\nIF (PA>0) OR (PA<5)\nR1=1/PA\nENDIF\nM17\n") == "NC3001 3");
+  CHECK(Sub("PROC SUB(REAL PA)\nIF PA<0\nP1=0\nENDIF\nR1=1/(PA+1)\nM17\n").empty());
+}
+
+TEST_CASE("value rules: values through loops") {
+  CHECK(Mill("DEF INT CNT\nFOR CNT=0 TO 5\nR1=1/CNT\nENDFOR\nM30\n") == "NC3001 3");
+  CHECK(Mill("DEF INT CNT\nFOR CNT=1 TO 5\nR1=1/CNT\nENDFOR\nM30\n").empty());
+  CHECK(Mill("DEF INT CNT=5\nWHILE CNT>0\nR1=1/CNT\nCNT=CNT-1\nENDWHILE\nM30\n").empty());
+  CHECK(Mill("DEF INT CNT=5\nWHILE CNT>0\nCNT=CNT-1\nR1=1/CNT\nENDWHILE\nM30\n") == "NC3001 4");
+  CHECK(Mill("R1=3\nAGAIN: R1=R1-1\nR2=1/(R1+5)\nIF R1>0 GOTOB AGAIN\nM30\n").empty());
+  CHECK(Macro("O1\n#1=3\nWHILE [#1 GT 0] DO1\n#2=1/#1\n#1=#1-1\nEND1\nM30\n").empty());
+}
+
+TEST_CASE("value rules: a promise of what arguments may be") {
+  const auto declare = [](const ir::Module& module) {
+    return std::vector<ir::analysis::DeclaredRange>{
+        {module.programs[ir::ProgramId{std::size_t{0}}].parameters[0], 1, 5}};
+  };
+  const std::vector<File> text = {{"sub.spf", "PROC SUB(REAL PA)\nR1=1/(PA+1)\nR2=SQRT(PA-9)\nM17\n"}};
+  CHECK(Check("sinumerik-840d-mill", text, declare).found == "NC3002 3 error");
+  CHECK(Check("sinumerik-840d-mill", text).found.empty());
+}
+
+TEST_CASE("value rules: domains of functions") {
+  CHECK(Mill("R1=SQRT(-4)\nM30\n") == "NC3002 1 error");
+  CHECK(Mill("R1=0\nR2=LN(R1)\nM30\n") == "NC3002 2 error");
+  CHECK(Mill("R1=ACOS(1.5)\nM30\n") == "NC3002 1 error");
+  CHECK(Mill("R1=TAN(90)\nM30\n") == "NC3002 1 error");
+  CHECK(Mill("DEF INT CNT\nFOR CNT=-1 TO 5\nR1=SQRT(CNT)\nENDFOR\nM30\n") == "NC3002 3");
+  CHECK(Mill("R1=SQRT(R2)\nM30\n").empty());
+  CHECK(Mill("DEF INT CNT\nFOR CNT=0 TO 5\nR1=SQRT(CNT)\nENDFOR\nM30\n").empty());
+  CHECK(Mill("R1=TAN(45)+ASIN(1)+LN(2)\nM30\n").empty());
+}
+
+TEST_CASE("value rules: results that are too large") {
+  CHECK(Mill("DEF INT CNT=2147483647\nCNT=CNT+1\nM30\n") == "NC3003 2 error");
+  CHECK(Mill("R1=EXP(1000)\nM30\n") == "NC3003 1 error");
+  CHECK(Mill("DEF INT CNT\nFOR CNT=1 TO 50000\nR1=CNT*CNT\nENDFOR\nM30\n") == "NC3003 3");
+  CHECK(Mill("DEF INT CNT\nFOR CNT=1 TO 500\nR1=CNT*CNT\nENDFOR\nM30\n").empty());
+  CHECK(Mill("R1=1EX10*1EX10\nM30\n").empty());
+  CHECK(Mill("DEF INT CNT\nAGAIN: CNT=CNT+1\nIF R1>CNT GOTOB AGAIN\nM30\n").empty());
+}
+
+TEST_CASE("value rules: values that do not fit their type") {
+  CHECK(Mill("DEF INT CNT\nCNT=3EX9\nM30\n") == "NC2005 2 error");
+  CHECK(Mill("DEF CHAR CH\nCH=300\nM30\n") == "NC2005 2 error");
+  CHECK(Mill("DEF INT CNT\nCNT=7/2\nM30\n") == "NC3008 2");
+  CHECK(Mill("DEF INT CNT\nCNT=7 DIV 2\nM30\n").empty());
+  CHECK(Mill("DEF INT CNT\nCNT=R1/2\nM30\n").empty());
+  CHECK(Mill("DEF CHAR CH\nCH=65\nM30\n").empty());
+}
+
+TEST_CASE("value rules: indices of arrays") {
+  CHECK(Mill("DEF REAL FIELD[4]\nFIELD[4]=1\nM30\n") == "NC2010 2 error");
+  CHECK(Mill("DEF REAL FIELD[4]\nDEF INT CNT\nFOR CNT=0 TO 4\nFIELD[CNT]=1\nENDFOR\nM30\n") == "NC2010 4");
+  CHECK(Mill("DEF REAL FIELD[4]\nR1=-1\nR2=FIELD[R1]\nM30\n") == "NC2010 3 error");
+  CHECK(Mill("DEF REAL FIELD[4]\nDEF INT CNT\nFOR CNT=0 TO 3\nFIELD[CNT]=1\nENDFOR\nM30\n").empty());
+  CHECK(Mill("DEF REAL FIELD[4]\nFIELD[R1]=1\nM30\n").empty());
+  CHECK(Mill("DEF REAL FIELD[2,3]=(1,2,3,4,5,6)\nFIELD[1,2]=1\nM30\n").empty());
+}
+
+TEST_CASE("value rules: loops that never run or never end") {
+  CHECK(Mill("DEF INT CNT\nFOR CNT=5 TO 3\nG4 F1\nENDFOR\nM30\n") == "NC4009 2");
+  CHECK(Mill("R1=0\nWHILE R1>5\nG4 F1\nENDWHILE\nM30\n") == "NC4009 2");
+  CHECK(Mill("WHILE R1>0\nG4 F1\nENDWHILE\nM30\n") == "NC4007 1");
+  CHECK(Mill("LOOP\nG4 F1\nENDLOOP\nM30\n") == "NC4007 1");
+  CHECK(Mill("REPEAT\nG4 F1\nUNTIL R1==0\nM30\n") == "NC4007 3");
+  CHECK(Mill("WHILE R1>0\nR1=R1-1\nENDWHILE\nM30\n").empty());
+  CHECK(Mill("LOOP\nR1=R1+1\nIF R1>5 GOTOF DONE\nENDLOOP\nDONE: M30\n").empty());
+  CHECK(Mill("WHILE $A_IN[1]==0\nG4 F1\nENDWHILE\nM30\n").empty());
+  CHECK(Mill("DEF INT CNT\nFOR CNT=3 TO R1\nG4 F1\nENDFOR\nM30\n").empty());
+}
+
+TEST_CASE("value rules: loops that end at one value only") {
+  CHECK(Mill("R1=0\nREPEAT\nR1=R1+0.1\nUNTIL R1==5\nM30\n") == "NC3009 4");
+  CHECK(Mill("R1=0\nWHILE R1<>5\nR1=R1+0.1\nENDWHILE\nM30\n") == "NC3009 2");
+  CHECK(Mill("FOR R1=0.5 TO 5\nG4 F1\nENDFOR\nM30\n") == "NC3008 1");
+  CHECK(Mill("R1=0\nREPEAT\nR1=R1+0.1\nUNTIL R1>=5\nM30\n").empty());
+  CHECK(Mill("R1=0\nREPEAT\nR1=R1+1\nUNTIL R1==5\nM30\n").empty());
+  CHECK(Mill("FOR R1=1 TO 5\nG4 F1\nENDFOR\nM30\n").empty());
+}
+
+TEST_CASE("value rules: comparisons beside logic without brackets") {
+  CHECK(Mill("IF R1==1 AND R2==1 GOTOF AB\nAB: M30\n") == "NC4010 1");
+  CHECK(Mill("IF NOT R1==5 GOTOF AB\nAB: M30\n") == "NC4010 1");
+  CHECK(Mill("WHILE R1<5 OR R2<5\nR1=R1+1\nR2=R2+1\nENDWHILE\nM30\n") == "NC4010 1");
+  CHECK(Mill("IF (R1==1) AND (R2==1) GOTOF AB\nAB: M30\n").empty());
+  CHECK(Mill("IF NOT (R1==5) GOTOF AB\nAB: M30\n").empty());
+  CHECK(Macro("O1\nIF [[#1 EQ 1] AND [#2 EQ 1]] GOTO 10\nN10 M30\n").empty());
+}
+
+TEST_CASE("value rules: blocks that no way leads to") {
+  CHECK(Mill("GOTOF AB\nR1=5\nAB: M30\n") == "NC4003 2");
+  CHECK(Mill("R1=1\nM30\nR2=5\n") == "NC4003 3");
+  CHECK(Macro("O1\nGOTO 10\n#1=5\nN10 M30\n") == "NC4003 3");
+  CHECK(Mill("GOTOF AB\nAB: M30\n").empty());
+  CHECK(Mill("AB: R1=R1+1\nGOTOB AB\nM30\n").empty());  // an end word behind an endless program
+  CHECK(Mill("GOTOF \"A\"<<R1\nR1=5\nA1: M30\n") == "NC4003 2");
+}
+
+TEST_CASE("value rules: calls that take values with them and bring them back") {
+  CHECK(Set("R1=0\nSUB(1, 2)\nR2=1/R1\nM30\n", "PROC SUB(REAL PA, REAL PB)\nR1=PA\nM17\n").empty());
+  CHECK(Set("R1=1\nSUB(1, 2)\nR2=1/R1\nM30\n", "PROC SUB(REAL PA, REAL PB)\nR1=0\nM17\n") == "NC3001 3 error");
+  CHECK(Set("DEF REAL VAL=0\nSUB(VAL)\nR2=1/VAL\nM30\n", "PROC SUB(VAR REAL PA)\nP1=3\nM17\n").empty());
+  CHECK(Set("DEF REAL VAL=3\nSUB(VAL)\nR2=1/VAL\nM30\n", "PROC SUB(VAR REAL PA)\nP1=0\nM17\n") == "NC3001 3 error");
+  // Two names for one variable.
+  CHECK(Set("DEF REAL VAL=3\nSUB(VAL,VAL)\nM30\n", "PROC SUB(VAR REAL PA, VAR REAL PB)\nP1=0\nP2=1\nR1=1/PA\nM17\n")
+            .empty());
+  // A subprogram after each motion may change what all see.
+  CHECK(Set("R1=0\nMCALL SUB(1)\nG0 X1\nR2=1/R1\nMCALL\nM30\n", "PROC SUB(REAL PA)\nR1=PA\nM17\n").empty());
+  CHECK(Set("SUB(3)\nM30\n", "PROC SUB(INT PA)\nR1=1/PA\nIF PA>1\nSUB(PA-1)\nENDIF\nM17\n").empty());
+}
+
+TEST_CASE("value rules: steps grow in line with the program") {
+  const auto steps = [](int loops, int calls) {
+    std::string text = "DEF INT CNT\n";
+    for (int i = 0; i < loops; ++i)
+      text += "FOR CNT=0 TO 9\nR" + std::to_string(i % 50) + "=CNT*2\nIF R1>5\nR2=R2+1\nENDIF\nENDFOR\n";
+    for (int i = 0; i < calls; ++i) text += "SUB(" + std::to_string(i) + ")\n";
+    text += "M30\n";
+    return Check("sinumerik-840d-mill", {{"main.mpf", text}, {"sub.spf", "PROC SUB(REAL PA)\nR3=PA+1\nM17\n"}}).steps;
+  };
+  const std::uint64_t one = steps(50, 50);
+  const std::uint64_t two = steps(100, 100);
+  const std::uint64_t four = steps(200, 200);
+  CHECK(two < 2.2 * static_cast<double>(one));
+  CHECK(four < 2.2 * static_cast<double>(two));
+}
+
+}  // namespace ncport::check

@@ -26,7 +26,7 @@ class StartAnalysis final : public CallHandler {
         start_(start),
         contexts_per_program_(contexts_per_program),
         plans_(plans),
-        slots_(module, calls, start) {
+        slots_(module, calls, start, machine.program_variables_visible) {
     std::uint64_t blocks = 0;
     for (const ProgramId program : slots_.Programs()) blocks += module.programs[program].blocks.count;
     constexpr std::uint64_t kLeast = 20'000;

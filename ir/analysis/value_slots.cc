@@ -34,7 +34,8 @@ bool JoinInto(ValueState& into, const ValueState& from) {
   return changed;
 }
 
-SlotMap::SlotMap(const Module& module, const CallGraph& calls, ProgramId start) : module_(module) {
+SlotMap::SlotMap(const Module& module, const CallGraph& calls, ProgramId start, bool program_variables_visible)
+    : module_(module), program_variables_visible_(program_variables_visible) {
   std::set<std::uint32_t> seen{start.value};
   programs_.push_back(start);
   for (std::size_t i = 0; i < programs_.size(); ++i) {
@@ -100,8 +101,10 @@ bool SlotMap::IsOpaque(ProgramId program) const { return std::ranges::binary_sea
 
 void SlotMap::AddVariable(ProgramId program, VariableId id) {
   const Variable& variable = module_.variables[id];
-  const bool local =
-      (variable.scope == Scope::kLocal || variable.scope == Scope::kParameter) && variable.owner == program;
+  // Variables of the main program are its own where no other program can see them.
+  const bool own_scope = variable.scope == Scope::kLocal || variable.scope == Scope::kParameter ||
+                         (variable.scope == Scope::kProgram && !program_variables_visible_);
+  const bool local = own_scope && variable.owner == program;
   if (local) {
     Slot slot;
     slot.kind = SlotKind::kVariable;

@@ -35,7 +35,7 @@ class SlotMap {
  public:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
-  SlotMap(const Module& module, const CallGraph& calls, ProgramId start);
+  SlotMap(const Module& module, const CallGraph& calls, ProgramId start, bool program_variables_visible);
 
   [[nodiscard]] const std::vector<ProgramId>& Programs() const { return programs_; }
   [[nodiscard]] bool Knows(ProgramId program) const { return locals_.contains(program.value); }
@@ -66,6 +66,7 @@ class SlotMap {
   void AddVariable(ProgramId program, VariableId id);
 
   const Module& module_;
+  bool program_variables_visible_;
   std::vector<ProgramId> programs_;
   std::vector<Slot> shared_;
   std::unordered_map<std::uint32_t, std::vector<Slot>> locals_;

@@ -112,11 +112,11 @@ TEST_CASE("value rules: tests in all forms narrow") {
   CHECK(Sub("PROC SUB(REAL PA)\nIF (PA<=0) OR (PA>5) GOTOF LEAVE\nR1=1/PA\nLEAVE: M17\n").empty());
   CHECK(Sub("PROC SUB(REAL PA)\nIF NOT (PA==0)\nR1=1/PA\nENDIF\nM17\n").empty());
   CHECK(Sub("PROC SUB(REAL PA)\nIF ABS(PA)<0.001 GOTOF LEAVE\nR1=1/PA\nLEAVE: M17\n").empty());
-  CHECK(Sub("PROC SUB(REAL PA)\nWHILE PA>0\nR1=1/PA\nP1=PA-1\nENDWHILE\nM17\n").empty());
+  CHECK(Sub("PROC SUB(REAL PA)\nWHILE PA>0\nR1=1/PA\nPA=PA-1\nENDWHILE\nM17\n").empty());
   CHECK(Sub("PROC SUB(REAL PA)\nIF PA\nR1=1/PA\nENDIF\nM17\n").empty());
   CHECK(Sub("PROC SUB(REAL PA)\nIF PA>=0\nR1=1/PA\nENDIF\nM17\n") == "NC3001 3");
   CHECK(Sub("PROC SUB(REAL PA)\nIF (PA>0) OR (PA<5)\nR1=1/PA\nENDIF\nM17\n") == "NC3001 3");
-  CHECK(Sub("PROC SUB(REAL PA)\nIF PA<0\nP1=0\nENDIF\nR1=1/(PA+1)\nM17\n").empty());
+  CHECK(Sub("PROC SUB(REAL PA)\nIF PA<0\nPA=0\nENDIF\nR1=1/(PA+1)\nM17\n").empty());
 }
 
 TEST_CASE("value rules: values through loops") {
@@ -218,10 +218,10 @@ TEST_CASE("value rules: blocks that no way leads to") {
 TEST_CASE("value rules: calls that take values with them and bring them back") {
   CHECK(Set("R1=0\nSUB(1, 2)\nR2=1/R1\nM30\n", "PROC SUB(REAL PA, REAL PB)\nR1=PA\nM17\n").empty());
   CHECK(Set("R1=1\nSUB(1, 2)\nR2=1/R1\nM30\n", "PROC SUB(REAL PA, REAL PB)\nR1=0\nM17\n") == "NC3001 3 error");
-  CHECK(Set("DEF REAL VAL=0\nSUB(VAL)\nR2=1/VAL\nM30\n", "PROC SUB(VAR REAL PA)\nP1=3\nM17\n").empty());
-  CHECK(Set("DEF REAL VAL=3\nSUB(VAL)\nR2=1/VAL\nM30\n", "PROC SUB(VAR REAL PA)\nP1=0\nM17\n") == "NC3001 3 error");
+  CHECK(Set("DEF REAL VAL=0\nSUB(VAL)\nR2=1/VAL\nM30\n", "PROC SUB(VAR REAL PA)\nPA=3\nM17\n").empty());
+  CHECK(Set("DEF REAL VAL=3\nSUB(VAL)\nR2=1/VAL\nM30\n", "PROC SUB(VAR REAL PA)\nPA=0\nM17\n") == "NC3001 3 error");
   // Two names for one variable.
-  CHECK(Set("DEF REAL VAL=3\nSUB(VAL,VAL)\nM30\n", "PROC SUB(VAR REAL PA, VAR REAL PB)\nP1=0\nP2=1\nR1=1/PA\nM17\n")
+  CHECK(Set("DEF REAL VAL=3\nSUB(VAL,VAL)\nM30\n", "PROC SUB(VAR REAL PA, VAR REAL PB)\nPA=0\nPB=1\nR1=1/PA\nM17\n")
             .empty());
   // A subprogram after each motion may change what all see.
   CHECK(Set("R1=0\nMCALL SUB(1)\nG0 X1\nR2=1/R1\nMCALL\nM30\n", "PROC SUB(REAL PA)\nR1=PA\nM17\n").empty());

@@ -90,7 +90,7 @@ class ExactLoopEnds {
         for (const ir::WordId id : module_.blocks[BlockId{std::size_t{i}}].words) {
           if (!StepsInFractions(module_, module_.words[id], place)) continue;
           diag::Diagnostic& finding = sink_.Report(diag::Code::kExactLoopEnd, module_.RangeOf(block, word),
-                                                   NameOf(module_, place), "the other side");
+                                                   NameOf(module_, place), EndText(module_.exprs[sides[1 - side]]));
           finding.notes.push_back({module_.RangeOf(module_.blocks[BlockId{std::size_t{i}}], module_.words[id]),
                                    "its steps are no exact binary numbers"});
           finding.help = "compare with < or >, or count in whole numbers";
@@ -98,6 +98,11 @@ class ExactLoopEnds {
         }
       }
     }
+  }
+
+  [[nodiscard]] std::string EndText(const Expr& end) const {
+    if (end.op == ExprOp::kLiteral) return fmt::format("{:.10g}", end.number);
+    return IsPlace(end) ? NameOf(module_, end) : "its end";
   }
 
   /// The control rounds the counter when the loop starts.

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kMostNotes = 3;
 
-std::string NumberText(double value) { return fmt::format("{:.6g}", value + 0.0); }
+std::string NumberText(double value) { return fmt::format("{:.10g}", value + 0.0); }
 
 }  // namespace
 

@@ -437,8 +437,6 @@ void ValueTransfer::EvalIndices(ExprId id, const Expr& expr) {
       size = variable.string_length == 0 ? machine_.string_max : variable.string_length;
     }
     if (size != 0 && observer_ != nullptr) observer_->Index(site_, id, i, index, size, *this);
-    if (size != 0 && index.HasNumber() && index.high >= 0 && index.low < size)
-      (void)Narrow(module_.Item(expr.b + i), {-0.5, size - 0.5, Interval::kVacant});
   }
 }
 

@@ -110,7 +110,9 @@ Finding CheckAnnounced(const Subject& subject, const Direction& /*direction*/) {
   RandomSource random(module.exprs.Size() * 7919 + module.blocks.Size() * 31 + module.words.Size());
   for (int variant = 0; variant < 4; ++variant) {
     if (variant > 0) ChangeValues(module, random);
-    const Subject changed{&module, subject.main, subject.profile, subject.machine, 20'000};
+    Subject changed = subject;
+    changed.module = &module;
+    changed.max_blocks = 20'000;
     const diag::Sink sink = CheckAll(module, *subject.machine, true);
     const SkipSets skips = SkipSetsOf(module);
     for (std::uint32_t i = 0; i < skips.count; ++i) {

@@ -74,6 +74,8 @@ void Kinematics::Set(const ir::Word& word, double extension, BlockWork& work) {
       break;
     case WordOp::kDiameter:
       modal.diameter = static_cast<ir::Diameter>(word.index);
+      if (modal.diameter != ir::Diameter::kRadius && session_.machine.transverse_axis >= ir::kMaxAxes)
+        session_.Alarm(ir::AlarmClass::kNoTransverseAxis, "diameter word without a transverse axis");
       break;
     case WordOp::kPathMode:
       SetPath(static_cast<ir::PathMode>(word.index));

@@ -183,6 +183,9 @@ bool Kinematics::Target(const BlockWork& work, std::uint8_t axis) {
   if (axis == session_.machine.transverse_axis) {
     if (Unknown(modal.diameter == ir::Diameter::kUnknown, "diameter or radius")) return false;
     if (TransverseInDiameter(mode, incremental)) value /= 2;
+  } else if (mode == ValueMode::kAbsoluteDiameter || mode == ValueMode::kIncrementalDiameter) {
+    session_.Alarm(ir::AlarmClass::kNoTransverseAxis, "diameter word of an axis that is not transverse");
+    return false;
   }
   if (incremental) {
     if (!Known(axis, "increment")) return false;

@@ -34,12 +34,13 @@ enum class AlarmClass : std::uint8_t {
   kMissingFeed,
   kUnknownPosition,  // incremental word without a position
   kUnknownCode,
-  kGeometry,    // other contour trouble
-  kSyntax,      // a refused block was reached
-  kProgramEnd,  // file ends without an end word
+  kGeometry,          // other contour trouble
+  kSyntax,            // a refused block was reached
+  kProgramEnd,        // file ends without an end word
+  kNoTransverseAxis,  // a diameter word on a machine without a transverse axis
   kOther,
 };
-inline constexpr std::size_t kAlarmClasses = 16;
+inline constexpr std::size_t kAlarmClasses = 17;
 
 /// One G or M code that a program may compute at run time.
 struct CodeMeaning {

@@ -22,6 +22,7 @@ constexpr AlarmRow kAlarms[] = {
     {A::kUnknownCode, "12470", "G function is unknown"},
     {A::kSyntax, "12080", "syntax error in text"},
     {A::kProgramEnd, "14000", "illegal end of file"},
+    {A::kNoTransverseAxis, "16510", "no transverse axis"},
 };
 
 /// Index words of `$P_GG[group]` (card 8.1). Groups without a state in the IR stay out: their value is not known.

@@ -46,6 +46,12 @@ TEST_CASE_FIXTURE(RunFixture, "diameter modes (vector 36)") {
       "RAPID Xr20 Z2\nLINE Xr15 Z0 F100\nLINE Xr17 Z0 F100\nLINE Xr21 Z0 F100\nLINE Xr25 Z0 F100\nLINE X10 Z0 F100\n");
 }
 
+TEST_CASE_FIXTURE(RunFixture, "diameter words need a transverse axis (sinumerik-10#53)") {
+  CHECK(Trace({"G0 X10", "DIAMON", "X20"}) == "RAPID X10\nALARM transverse diameter word without a transverse axis\n");
+  RunFixture word;
+  CHECK(word.Trace({"DIAMOF", "G0 X=DAC(10)"}) == "ALARM transverse diameter word of an axis that is not transverse\n");
+}
+
 TEST_CASE_FIXTURE(RunFixture, "words of one axis choose diameter or radius themselves") {
   machine = TestLathe();
   CHECK(Trace({"G0 X=RAC(10) Z0", "X=DIC(4)", "X=RIC(4)", "DIAMOF", "X=DAC(10)"}) ==

@@ -30,8 +30,8 @@ inline ir::Machine TestMachine() {
                    {true, 0, 0}};
   machine.compare_tolerance = 1e-12;
   constexpr const char* kCodes[ir::kAlarmClasses] = {
-      "user",   "arithmetic", "conversion", "index", "target",   "program", "nesting", "range",
-      "circle", "feed",       "position",   "code",  "geometry", "syntax",  "end",     "other"};
+      "user", "arithmetic", "conversion", "index",    "target", "program", "nesting",    "range", "circle",
+      "feed", "position",   "code",       "geometry", "syntax", "end",     "transverse", "other"};
   for (std::size_t i = 0; i < ir::kAlarmClasses; ++i) machine.alarms[i] = {kCodes[i], kCodes[i]};
   return machine;
 }

@@ -139,12 +139,12 @@ void CheckFlow(Context& context, const app::ProgramSet& set, const CheckOptions&
 
 }  // namespace
 
-Status Check(Context& context, const std::vector<Input>& inputs, const CheckOptions& options) {
+Status Check(Context& context, std::vector<Input> inputs, const CheckOptions& options) {
   Status known = KnownCodes(options.select, "select", context.findings);
   known &= KnownCodes(options.ignore, "ignore", context.findings);
   NCPORT_TRY(known);
   app::ProgramSet set;
-  const Status read = app::ReadSet(context, inputs, options, app::ProfileNeed::kGuess, set);
+  const Status read = app::ReadSet(context, std::move(inputs), options, app::ProfileNeed::kGuess, set);
   if (set.inputs.empty()) return read & Failure{};
   const ir::ModalState entry = options.config != nullptr ? options.config->entry : ir::ModalState{};
   const check::Subject subject(set.module, set.profile, entry);

@@ -13,11 +13,18 @@ namespace {
 
 /// One side of a comparison: what was read, how it ran.
 struct DiffSide {
+  explicit DiffSide(std::size_t max_events) : trace(max_events) {}
+
   app::ProgramSet set;
   ir::Machine machine;
   prove::RecordedTrace trace;
   exec::Outcome outcome = exec::Outcome::kEnded;
 };
+
+SourceRange PlaceOf(const DiffSide& side, ir::BlockId block) {
+  if (!block.Valid() || block.value >= side.set.module.blocks.Size()) return {};
+  return side.set.module.RangeOf(side.set.module.blocks[block]);
+}
 
 Status RunSide(Context& context, const Input& input, const std::string& from, const DiffOptions& options,
                DiffSide& side) {
@@ -29,19 +36,21 @@ Status RunSide(Context& context, const Input& input, const std::string& from, co
   const exec::Linked linked(side.set.module, side.machine);
   exec::NoEnvironment environment;
   side.outcome = exec::Run(linked, run, environment, side.trace, context.findings).outcome;
+  if (side.trace.Full()) {
+    const SourceRange at =
+        PlaceOf(side, side.trace.Events().empty() ? ir::BlockId{} : side.trace.Events().back().block);
+    context.findings.Report(diag::Code::kEventLimit, at, options.max_events).help = "raise it with --max-events";
+    return Failure{};
+  }
   if (side.outcome == exec::Outcome::kEnded || side.outcome == exec::Outcome::kAlarmed) return {};
   return Failure{};
-}
-
-SourceRange PlaceOf(const DiffSide& side, ir::BlockId block) {
-  if (!block.Valid() || block.value >= side.set.module.blocks.Size()) return {};
-  return side.set.module.RangeOf(side.set.module.blocks[block]);
 }
 
 }  // namespace
 
 Status Diff(Context& context, const Input& a, const Input& b, const DiffOptions& options) {
-  DiffSide source, target;
+  DiffSide source(options.max_events);
+  DiffSide target(options.max_events);
   NCPORT_TRY(RunSide(context, a, options.from_a, options, source));
   NCPORT_TRY(RunSide(context, b, options.from_b, options, target));
   prove::CompareOptions compare;

@@ -30,9 +30,8 @@ class Listeners final : public FlatListener {
 };
 
 /// First lines of the output: the source, the machines, and the settings of the run.
-std::vector<std::string> Heading(const std::vector<Input>& inputs, const FlattenOptions& options,
-                                 const dialects::Profile& from, const dialects::Profile& to) {
-  std::string_view name = inputs.front().name;
+std::vector<std::string> Heading(std::string_view name, const FlattenOptions& options, const dialects::Profile& from,
+                                 const dialects::Profile& to) {
   name = name.substr(name.rfind('/') + 1);
   std::vector<std::string> lines = {fmt::format("{} from {} to {}, ncport {}", name, from.name, to.name, Version())};
   if (!options.call.empty()) lines.push_back("call " + options.call);
@@ -43,7 +42,7 @@ std::vector<std::string> Heading(const std::vector<Input>& inputs, const Flatten
 
 }  // namespace
 
-Status Flatten(Context& context, const std::vector<Input>& inputs, const FlattenOptions& options, OutputSink& output) {
+Status Flatten(Context& context, std::vector<Input> inputs, const FlattenOptions& options, OutputSink& output) {
   using app::ProfileNeed;
   std::string target_name = options.to;
   if (target_name.empty() && options.config != nullptr) target_name = options.config->to.value_or("");
@@ -60,15 +59,13 @@ Status Flatten(Context& context, const std::vector<Input>& inputs, const Flatten
     return Failure{};
   }
   app::ProgramSet set;
-  NCPORT_TRY(app::ReadSet(context, inputs, options, ProfileNeed::kNamed, set));
+  NCPORT_TRY(app::ReadSet(context, std::move(inputs), options, ProfileNeed::kNamed, set));
   NCPORT_TRY_ASSIGN(exec::RunOptions run, app::RunOptionsFor(context, set, options));
-  run.count_turns = options.side_by_side || options.source_map != nullptr;
-
   run.count_turns = options.side_by_side || options.source_map != nullptr;
 
   exec::Coverage coverage;
   backends::iso::FlatOptions flat;
-  flat.heading = Heading(inputs, options, set.profile, target);
+  flat.heading = Heading(context.files.Name(set.inputs.front()), options, set.profile, target);
   flat.config = options.config;
   flat.coverage = &coverage;
   flat.max_bytes = options.max_bytes;

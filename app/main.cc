@@ -154,6 +154,8 @@ class Session {
   }
 
   [[nodiscard]] const std::vector<Input>& Inputs() const { return inputs_; }
+  /// For the one who reads them: the bytes are not kept twice.
+  [[nodiscard]] std::vector<Input> TakeInputs() { return std::move(inputs_); }
   [[nodiscard]] const dialects::Config& Config() const { return config_; }
   [[nodiscard]] const std::string& FolderError() const { return folders_.Error(); }
 
@@ -167,11 +169,14 @@ class Session {
 };
 
 /// Writes a text that is complete to standard output.
-int Print(std::string_view text) {
-  OutputSink out(STDOUT_FILENO);
-  if (out.Write(text).Ok()) return kDone;
+int CannotPrint(const OutputSink& out) {
   Say(fmt::format("cannot write standard output: {}", std::strerror(out.Error())));
   return kUsage;
+}
+
+int Print(std::string_view text) {
+  OutputSink out(STDOUT_FILENO);
+  return out.Write(text).Ok() ? kDone : CannotPrint(out);
 }
 
 // --- commands
@@ -189,7 +194,7 @@ int RunTrace(const TraceArguments& arguments) {
   options.format = arguments.format == "json" ? TraceFormat::kJson : TraceFormat::kText;
   options.variables = arguments.variables;
   OutputSink out(STDOUT_FILENO);
-  const Status ok = Trace(session.context, session.Inputs(), options, out);
+  const Status ok = Trace(session.context, session.TakeInputs(), options, out);
   const int code = session.End(ok);
   if (out.Error() != 0) {
     Say(fmt::format("cannot write standard output: {}", std::strerror(out.Error())));
@@ -221,7 +226,7 @@ int RunFlatten(const FlattenArguments& arguments) {
   options.side_by_side = arguments.side_by_side;
   options.max_bytes = arguments.max_output;
   if (files.size() > 1) options.source_map = &files[1]->Text();
-  const Status ok = Flatten(session.context, session.Inputs(), options, files[0]->Text());
+  const Status ok = Flatten(session.context, session.TakeInputs(), options, files[0]->Text());
   const int code = session.End(ok);
   std::string error;
   // A failed write explains a failure without findings, and is wrong use of the disk, not an error of the program.
@@ -244,7 +249,7 @@ int RunCheck(const CheckArguments& arguments) {
   session.Fill(options);
   options.select = arguments.select.empty() ? session.Config().select : arguments.select;
   options.ignore = arguments.ignore.empty() ? session.Config().ignore : arguments.ignore;
-  (void)Check(session.context, session.Inputs(), options);
+  (void)Check(session.context, session.TakeInputs(), options);
 
   // Wrong usage is no finding of the programs.
   Context& context = session.context;
@@ -294,8 +299,9 @@ int RunDump(const DumpArguments& arguments) {
                   : arguments.stage == "cfg"  ? DumpStage::kCfg
                                               : DumpStage::kIr;
   OutputSink out(STDOUT_FILENO);
-  const Status ok = Dump(session.context, session.Inputs(), options, out);
-  return session.End(ok);
+  const Status ok = Dump(session.context, session.TakeInputs(), options, out);
+  const int code = session.End(ok);
+  return out.Error() != 0 ? CannotPrint(out) : code;
 }
 
 struct TranslateArguments : Common, Running {
@@ -315,7 +321,7 @@ int RunTranslate(const TranslateArguments& arguments) {
   options.runs = arguments.runs;
   options.seed = arguments.seed;
   TranslateResult result;
-  const Status ok = Translate(session.context, session.Inputs(), options, result);
+  const Status ok = Translate(session.context, session.TakeInputs(), options, result);
   const int code = session.End(ok);
   if (!result.summary.empty() && !arguments.quiet) fmt::print(stderr, "{}", result.summary);
   if (code != kDone) return code;
@@ -344,6 +350,7 @@ int RunTranslate(const TranslateArguments& arguments) {
 struct DiffArguments : Common, Running {
   std::string from_a, from_b;
   double tolerance = DiffOptions{}.tolerance;
+  std::uint64_t max_events = DiffOptions{}.max_events;
 };
 
 int RunDiff(const DiffArguments& arguments) {
@@ -358,6 +365,7 @@ int RunDiff(const DiffArguments& arguments) {
   options.from_a = arguments.from_a;
   options.from_b = arguments.from_b;
   options.tolerance = arguments.tolerance;
+  options.max_events = arguments.max_events;
   return session.End(Diff(session.context, session.Inputs()[0], session.Inputs()[1], options));
 }
 
@@ -420,6 +428,7 @@ int Main(int argc, char** argv) {
   command->add_option("--from-a", diff.from_a, "profile of the first program");
   command->add_option("--from-b", diff.from_b, "profile of the second program");
   command->add_option("--tolerance", diff.tolerance, "allowed difference of positions, mm")->type_name("MM");
+  command->add_option("--max-events", diff.max_events, "events of each run that may be compared");
   command->callback([&] { code = RunDiff(diff); });
 
   FlattenArguments flatten;

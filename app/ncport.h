@@ -90,7 +90,8 @@ struct TranslateResult {
 /// `call`, `set` and `start` hold for both programs; `from` where a side has no profile of its own.
 struct DiffOptions : RunSettings {
   std::string from_a, from_b;
-  double tolerance = 0.0001;  // mm, degrees, on top of what the words of each side round
+  double tolerance = 0.0001;             // mm, degrees, on top of what the words of each side round
+  std::uint64_t max_events = 2'000'000;  // kept of each run, some 400 bytes each
 };
 
 struct CheckOptions : ReadSettings {
@@ -103,24 +104,23 @@ struct DumpOptions : ReadSettings {
 };
 
 /// Runs the program and writes its events. Fails after errors and after an alarm of the program.
-Status Trace(Context& context, const std::vector<Input>& inputs, const TraceOptions& options, OutputSink& output);
+Status Trace(Context& context, std::vector<Input> inputs, const TraceOptions& options, OutputSink& output);
 
 /// Runs the program and writes flat blocks. After a failure what was written is worthless.
-Status Flatten(Context& context, const std::vector<Input>& inputs, const FlattenOptions& options, OutputSink& output);
+Status Flatten(Context& context, std::vector<Input> inputs, const FlattenOptions& options, OutputSink& output);
 
 /// Writes the programs in the language of the target, loops and variables kept. Fails after errors.
-Status Translate(Context& context, const std::vector<Input>& inputs, const TranslateOptions& options,
-                 TranslateResult& result);
+Status Translate(Context& context, std::vector<Input> inputs, const TranslateOptions& options, TranslateResult& result);
 
 /// Runs both programs and compares what the machine does, also across languages. Fails after a difference.
 Status Diff(Context& context, const Input& a, const Input& b, const DiffOptions& options);
 
 /// Reads and checks all programs. Fails when an error was found. Findings that a comment `ncport: ignore NCxxxx` or the
 /// options silence are not in the context.
-Status Check(Context& context, const std::vector<Input>& inputs, const CheckOptions& options);
+Status Check(Context& context, std::vector<Input> inputs, const CheckOptions& options);
 
 /// Shows a stage of the compiler as text.
-Status Dump(Context& context, const std::vector<Input>& inputs, const DumpOptions& options, OutputSink& output);
+Status Dump(Context& context, std::vector<Input> inputs, const DumpOptions& options, OutputSink& output);
 
 /// The page on a diagnostic (`NC3001`): why, wrong example, right example, remedy. Empty: there is no such code.
 std::string_view Explain(std::string_view code);

@@ -15,15 +15,15 @@
 namespace ncport::app {
 namespace {
 
-/// Decodes one file and adds it. Fails when it is no text.
-Status AddFile(Context& context, const Input& input, FileId& id) {
+/// Decodes one file and adds it; takes its bytes. Fails when it is no text.
+Status AddFile(Context& context, Input& input, FileId& id) {
   if (input.bytes.size() > SourceFiles::kMaxBytes) {
     id = context.files.Add(input.name, {});
     context.findings.Report(diag::Code::kFileTooLarge, SourceRange{.file = id}, input.bytes.size(),
                             SourceFiles::kMaxBytes);
     return Failure{};
   }
-  DecodedText decoded = DecodeText(input.bytes);
+  DecodedText decoded = DecodeText(std::move(input.bytes));
   id = context.files.Add(input.name, std::move(decoded.text));
   if (decoded.is_binary) {
     context.findings.Report(diag::Code::kBinaryFile, SourceRange{.file = id}, std::string(decoded.binary_reason));
@@ -99,12 +99,12 @@ Result<dialects::Profile> ChooseProfile(Context& context, const Input& first, co
   return dialects::LoadProfile(name, context.files, context.findings);
 }
 
-Status ReadSet(Context& context, const std::vector<Input>& inputs, const ReadSettings& settings, ProfileNeed need,
+Status ReadSet(Context& context, std::vector<Input> inputs, const ReadSettings& settings, ProfileNeed need,
                ProgramSet& set) {
   NCPORT_TRY_ASSIGN(set.profile, ChooseProfile(context, inputs.front(), settings, need));
   NCPORT_TRY(SameLanguage(context, inputs, settings, set.profile));
   Status ok;
-  for (const Input& input : inputs) {
+  for (Input& input : inputs) {
     if (const FileId known = context.files.Find(input.name);
         known.Valid() && std::find(set.inputs.begin(), set.inputs.end(), known) != set.inputs.end())
       continue;  // named twice

@@ -29,8 +29,8 @@ Result<dialects::Profile> ChooseProfile(Context& context, const Input& first, co
                                         ProfileNeed need);
 
 /// Reads the inputs, then the called programs that they lack and `settings.find` has, and resolves all names. Fails
-/// after errors, but the set is complete as far as it could be read.
-Status ReadSet(Context& context, const std::vector<Input>& inputs, const ReadSettings& settings, ProfileNeed need,
+/// after errors, but the set is complete as far as it could be read. Takes the bytes of the inputs over.
+Status ReadSet(Context& context, std::vector<Input> inputs, const ReadSettings& settings, ProfileNeed need,
                ProgramSet& set);
 
 /// Entry, arguments, start values of a run. Fails after findings.

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include "app/ncport.h"
 #include "app/pipeline.h"
@@ -44,9 +45,9 @@ class AlarmReporter final : public exec::EventSink {
 
 }  // namespace
 
-Status Trace(Context& context, const std::vector<Input>& inputs, const TraceOptions& options, OutputSink& output) {
+Status Trace(Context& context, std::vector<Input> inputs, const TraceOptions& options, OutputSink& output) {
   app::ProgramSet set;
-  NCPORT_TRY(app::ReadSet(context, inputs, options, app::ProfileNeed::kGuess, set));
+  NCPORT_TRY(app::ReadSet(context, std::move(inputs), options, app::ProfileNeed::kGuess, set));
   NCPORT_TRY_ASSIGN(exec::RunOptions run, app::RunOptionsFor(context, set, options));
   run.report_variables = options.variables;
   const bool json = options.format == TraceFormat::kJson;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "app/comparison.h"
 #include "app/ncport.h"
@@ -43,10 +44,10 @@ void ReportNotCompared(Context& context, const app::ProgramSet& set, const prove
 
 }  // namespace
 
-Status Translate(Context& context, const std::vector<Input>& inputs, const TranslateOptions& options,
+Status Translate(Context& context, std::vector<Input> inputs, const TranslateOptions& options,
                  TranslateResult& result) {
   app::ProgramSet set;
-  NCPORT_TRY(app::ReadSet(context, inputs, options, app::ProfileNeed::kNamed, set));
+  NCPORT_TRY(app::ReadSet(context, std::move(inputs), options, app::ProfileNeed::kNamed, set));
   std::string target_name = options.to;
   if (target_name.empty() && options.config != nullptr) target_name = options.config->to.value_or("");
   if (target_name.empty()) {

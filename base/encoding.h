@@ -31,8 +31,9 @@ struct DecodedText {
 };
 
 /// Decodes a whole file. Bytes above 127 that are not UTF-8 throughout are read as Windows-1252, its five holes as
-/// U+0081 ..., so that EncodeBack gives every byte back.
-DecodedText DecodeText(std::string_view bytes);
+/// U+0081 ..., so that EncodeBack gives every byte back. Takes the bytes over: text that needs no decoding is not
+/// copied.
+DecodedText DecodeText(std::string bytes);
 
 struct EncodedText {
   std::string bytes;

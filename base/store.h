@@ -17,6 +17,10 @@ class Store {
     return IdType{records_.size() - 1};
   }
 
+  /// Adds a record with default values, to be filled where it stands: a record that is made elsewhere from small fields
+  /// and copied right away makes the processor wait for its own stores.
+  Record& Emplace() { return records_.emplace_back(); }
+
   [[nodiscard]] const Record& operator[](IdType id) const { return records_[id.value]; }
   [[nodiscard]] Record& operator[](IdType id) { return records_[id.value]; }
   [[nodiscard]] std::size_t Size() const { return records_.size(); }

@@ -61,9 +61,10 @@ class Evaluator {
   /// The first element of a variable, by its definition.
   Place VariablePlace(ir::VariableId id);
   /// A number as it is written.
-  static Value LiteralOf(const ir::Expr& expr) {
+  static Value LiteralOf(const ir::Expr& expr) { return {LiteralType(expr), 0, expr.number}; }
+  static ir::Type LiteralType(const ir::Expr& expr) {
     const bool typed = expr.type == ir::Type::kInt || expr.type == ir::Type::kBool || expr.type == ir::Type::kChar;
-    return {typed ? expr.type : ir::Type::kReal, 0, expr.number};
+    return typed ? expr.type : ir::Type::kReal;
   }
   /// The value at a place.
   Value Load(const Place& place);

@@ -18,15 +18,21 @@ void Runner::Gather(const ir::Block& block) {
     const Word& word = module.words[WordId{std::size_t{index}}];
     if (word.phase == Phase::kFlow || word.phase == Phase::kLast) continue;
     session_.word = &word;
-    Value value;
+    // Made where it stays: a value that is put together from its fields and then copied makes the processor wait.
+    Value& value = values_[index - block.words.begin];
+    value.type = ir::Type::kNone;
+    value.text = 0;
+    value.number = 0;
     if (word.value.Valid()) {
       const ir::Expr& expr = module.exprs[word.value];
-      value = expr.op == ir::ExprOp::kLiteral ? Evaluator::LiteralOf(expr) : evaluator_.Eval(word.value);
-      if (session_.halted) return;
-      if (value.IsVacant() && (word.flags & Word::kVanishesVacant) != 0) {
-        values_[index - block.words.begin] = value;
-        continue;
+      if (expr.op == ir::ExprOp::kLiteral) {
+        value.type = Evaluator::LiteralType(expr);
+        value.number = expr.number;
+      } else {
+        value = evaluator_.Eval(word.value);
       }
+      if (session_.halted) return;
+      if (value.IsVacant() && (word.flags & Word::kVanishesVacant) != 0) continue;
     }
     switch (word.op) {
       case WordOp::kAssign:
@@ -65,7 +71,6 @@ void Runner::Gather(const ir::Block& block) {
         session_.Refuse(diag::Code::kRefusedBlock);
         break;
       default:
-        values_[index - block.words.begin] = value;
         Collect(word, value);
         break;
     }

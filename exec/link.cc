@@ -61,7 +61,9 @@ void Linked::LayOutVariables() {
   }
   for_slots_.assign(module.fors.Size(), 0);
   bool modal_calls = false;
+  const bool loops_or_calls = !module.fors.Empty() || !module.calls.Empty();  // else there is nothing to lay out
   for (const ir::ProgramId id : module.programs.Ids()) {
+    if (!loops_or_calls) break;
     for (const BlockId block : module.programs[id].blocks) {
       for (const ir::WordId word_id : module.blocks[block].words) {
         const ir::Word& word = module.words[word_id];
@@ -110,6 +112,7 @@ void Linked::ClassifyBlocks() {
   bool deep = false;
   for (const ExprId id : module.exprs.Ids()) {
     const ir::Expr& expr = module.exprs[id];
+    if (expr.op == ir::ExprOp::kLiteral) continue;
     std::uint16_t depth = 0;
     const auto take = [&](std::uint32_t child) {
       if (child < id.value) depth = std::max(depth, depths[child]);

@@ -53,6 +53,12 @@ struct Module {
     expr_places.push_back(place);
     return exprs.Add(expr);
   }
+  /// As AddExpr, with a default expression to be filled where it stands; its id is LastExpr().
+  Expr& EmplaceExpr(ExprPlace place) {
+    expr_places.push_back(place);
+    return exprs.Emplace();
+  }
+  [[nodiscard]] ExprId LastExpr() const { return ExprId{exprs.Size() - 1}; }
   [[nodiscard]] ExprId Item(std::uint32_t index) const { return expr_items[index]; }
   [[nodiscard]] std::string_view View(StringId id) const { return id.Valid() ? strings.View(id) : std::string_view{}; }
 

@@ -81,8 +81,22 @@ void Cut(Cells& cells, std::size_t width) {
   cells.end = std::max(std::min(cells.end, last) - first + before, cells.begin + 1);
 }
 
-void AppendSource(std::string& text, const SourceRange& at, const SourceFiles& files, const TextOptions& options) {
-  const std::string_view line = files.Line(at.file, at.line);
+/// The part of a very long line around the place: more than is shown on either side, so that Cut marks what is left
+/// out.
+std::string_view PartOf(std::string_view line, SourceRange& at, std::size_t max_width) {
+  constexpr std::size_t kShort = 16384;
+  if (line.size() <= kShort) return line;
+  const std::size_t reach = 4096 + 8 * max_width;  // a cell has at most four bytes
+  std::size_t first = at.begin > reach ? std::min<std::size_t>(at.begin, line.size()) - reach : 0;
+  while (first > 0 && (static_cast<unsigned char>(line[first]) & 0xC0U) == 0x80U) --first;
+  line = line.substr(first, 2 * reach);
+  at.begin -= static_cast<std::uint32_t>(first);
+  at.end -= static_cast<std::uint32_t>(std::min<std::size_t>(first, at.end));
+  return line;
+}
+
+void AppendSource(std::string& text, SourceRange at, const SourceFiles& files, const TextOptions& options) {
+  const std::string_view line = PartOf(files.Line(at.file, at.line), at, options.max_width);
   Cells cells = CellsOf(line, at, std::max<std::size_t>(options.tab_width, 1));
   Cut(cells, std::max<std::size_t>(options.max_width, 20));
   const std::string number = fmt::format("{:>{}}", at.line, kMinGutter);

@@ -14,7 +14,16 @@ void ReportLineError(const LineError& error, std::string_view line, SourceRange 
   const auto slice = [&](std::uint32_t begin, std::uint32_t length) {
     return begin <= line.size() ? line.substr(begin, length) : std::string_view();
   };
-  std::string_view word = slice(error.begin, error.length);
+  // The place says where the word is; a very long one needs no second copy in the message.
+  constexpr std::size_t kLongestWord = 200;
+  const auto shortened = [](std::string_view text) {
+    if (text.size() <= kLongestWord) return std::string(text);
+    std::size_t end = kLongestWord;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+    return std::string(text.substr(0, end)) + "...";
+  };
+  const std::string cut = shortened(slice(error.begin, error.length));
+  std::string_view word = cut;
   if (word.empty()) word = error.code == Code::kUnexpectedText ? "end of the block" : "the end of the block";
   const std::string_view detail = error.detail != nullptr ? error.detail : "";
   diag::Diagnostic* finding = nullptr;
@@ -26,7 +35,7 @@ void ReportLineError(const LineError& error, std::string_view line, SourceRange 
       finding = &sink.Report(error.code, at);
       break;
     case Code::kWordConflict:
-      finding = &sink.Report(error.code, at, slice(error.other_begin, error.other_length), word);
+      finding = &sink.Report(error.code, at, shortened(slice(error.other_begin, error.other_length)), word);
       break;
     case Code::kNestingLimit:
       finding = &sink.Report(error.code, at, detail, error.limit);

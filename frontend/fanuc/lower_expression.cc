@@ -33,7 +33,7 @@ ExprId Lowering::Pop() {
 
 // Every number is REAL: 7 and 7. are one value inside macros (fanuc-2.2).
 ExprId Lowering::Literal(const Token& token) {
-  Expr expr;
+  Expr& expr = module_.EmplaceExpr({token.offset, token.length});
   expr.type = Type::kReal;
   expr.format = token.format;
   expr.number = token.number;
@@ -43,7 +43,7 @@ ExprId Lowering::Literal(const Token& token) {
     if (added && module_.literal_texts.size() < 0xFFFF) module_.literal_texts.push_back(token.Text());
     expr.count = it->second;
   }
-  return module_.AddExpr(expr, {token.offset, token.length});
+  return module_.LastExpr();
 }
 
 /// A number that stands nowhere in the text.

@@ -12,12 +12,12 @@ using ir::Word;
 using ir::WordOp;
 
 Word& Lowering::AddWord(WordOp op, std::uint32_t first, std::uint32_t last) {
-  Word word;
+  Word& word = module_.words.Emplace();
   word.op = op;
   word.phase = ir::DefaultPhaseOf(op);
   word.begin = tokens_[first].offset;
   word.length = tokens_[last].End() - word.begin;
-  return module_.words[module_.words.Add(word)];
+  return word;
 }
 
 std::uint16_t Lowering::SpellingOf(std::string_view text, std::string_view rule) {

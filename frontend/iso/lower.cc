@@ -50,23 +50,23 @@ bool Lowering::Replay(const Recipe& recipe, std::span<const Token> tokens, std::
 }
 
 ir::Word& Lowering::Add(WordOp op, const Action& action, ir::ExprId value, std::uint8_t index) {
-  ir::Word word;
+  ir::Word& word = module_.words.Emplace();
   word.op = op;
   word.phase = ir::DefaultPhaseOf(op);
   word.value = value;
   word.index = index;
   word.begin = tokens_[action.first].offset;
   word.length = tokens_[action.last].End() - word.begin;
-  return module_.words[module_.words.Add(word)];
+  return word;
 }
 
 ir::ExprId Lowering::Literal(const Token& token) {
-  ir::Expr expr;
+  ir::Expr& expr = module_.EmplaceExpr({token.offset, token.length});
   expr.op = ir::ExprOp::kLiteral;
   expr.type = (token.format.flags & ir::NumberFormat::kPoint) != 0 ? ir::Type::kReal : ir::Type::kInt;
   expr.format = token.format;
   expr.number = token.number;
-  return module_.AddExpr(expr, {token.offset, token.length});
+  return module_.LastExpr();
 }
 
 ir::ExprId Lowering::Whole(double number, const Token& token) {

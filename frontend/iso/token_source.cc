@@ -48,10 +48,23 @@ void TokenSource::Lex(std::string_view line) {
   std::size_t at = 0;
   while (at < line.size() && IsBlank(line[at])) ++at;
   indent_ = static_cast<std::uint32_t>(at);
+  std::size_t in_comments = 0;
   while (at < line.size()) {
+    const std::size_t before = at;
     if (IsBlank(line[at])) {
       ++at;
-    } else if (!(line[at] == '(' ? LexComment(line, at) : LexWord(line, at))) {
+    } else if (at - in_comments > kMaxLineBytes) {
+      Fail(Code::kBlockTooLong, at, line.size() - at);
+      error_.limit = kMaxLineBytes;
+      return;
+    } else if (tokens_.size() > kMaxTokens || comments_.size() > kMaxTokens) {
+      Fail(Code::kTooManyWords, at, line.size() - at);
+      error_.limit = kMaxTokens;
+      return;
+    } else if (line[at] == '(') {
+      if (!LexComment(line, at)) return;
+      in_comments += at - before;
+    } else if (!LexWord(line, at)) {
       return;
     }
   }

@@ -15,6 +15,10 @@ namespace ncport::frontend::iso {
 
 class TokenSource {
  public:
+  /// Limits that keep untrusted text harmless; far above what a control takes.
+  static constexpr std::uint32_t kMaxLineBytes = 4096;  // without comments
+  static constexpr std::uint32_t kMaxTokens = 1000;
+
   /// A comment: its text without brackets, and the number of tokens in front of it.
   struct Comment {
     std::uint32_t begin, length;

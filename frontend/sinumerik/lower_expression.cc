@@ -24,7 +24,7 @@ ExprId Lowering::Pop() {
 }
 
 ExprId Lowering::Literal(const Token& token) {
-  Expr expr;
+  Expr& expr = module_.EmplaceExpr({token.offset, token.length});
   expr.op = ExprOp::kLiteral;
   expr.type = (token.format.flags & ir::NumberFormat::kPoint) != 0 ? Type::kReal : Type::kInt;
   expr.format = token.format;
@@ -35,7 +35,7 @@ ExprId Lowering::Literal(const Token& token) {
     if (added && module_.literal_texts.size() < 0xFFFF) module_.literal_texts.push_back(token.Text());
     expr.count = it->second;
   }
-  return module_.AddExpr(expr, {token.offset, token.length});
+  return module_.LastExpr();
 }
 
 bool Lowering::IsLiteral(ExprId id) const { return id.Valid() && module_.exprs[id].op == ExprOp::kLiteral; }

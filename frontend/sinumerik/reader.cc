@@ -202,11 +202,11 @@ class Reader {
   }
 
   ir::Block NewBlock(std::uint32_t line) {
-    ir::Origin origin;
+    ir::Block block;
+    block.origin = ir::OriginId{module_.origins.Size()};
+    ir::Origin& origin = module_.origins.Emplace();
     origin.file = file_;
     origin.line = line;
-    ir::Block block;
-    block.origin = module_.origins.Add(origin);
     return block;
   }
 

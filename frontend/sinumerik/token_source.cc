@@ -56,9 +56,14 @@ std::string_view UpperIn(std::string_view text, char (&buffer)[kMaxWord]) {
 
 /// Axis number of one of the nine letters, or kNamedAxis.
 std::uint8_t LetterAxis(char upper) {
-  constexpr std::string_view kLetters = "XYZABCUVW";
-  const std::size_t found = kLetters.find(upper);
-  return found == std::string_view::npos ? kNamedAxis : static_cast<std::uint8_t>(found);
+  static constexpr auto kAxes = [] {
+    std::array<std::uint8_t, 256> axes{};
+    axes.fill(kNamedAxis);
+    std::uint8_t number = 0;
+    for (const char letter : std::string_view("XYZABCUVW")) axes[static_cast<unsigned char>(letter)] = number++;
+    return axes;
+  }();
+  return kAxes[static_cast<unsigned char>(upper)];
 }
 
 /// Rows of the addresses of one letter.

@@ -103,4 +103,21 @@ TEST_CASE("places of files, of notes, and large line numbers") {
         "       | ^^\n");
 }
 
+TEST_CASE("a very long line is shown like a long one") {
+  const std::string around(300, 'x');
+  std::string near_text = around + "\xC3\xA4?" + around;
+  const std::string shown = Marked(near_text, 302, 303);
+  const std::string far_text = std::string(30000, 'x') + "\xC3\xA4?" + std::string(30000, 'x');
+  CHECK(Marked(far_text, 30002, 30003) == shown);
+  // At its start and behind its end.
+  CHECK(Marked("?" + far_text, 0, 1) == Marked("?" + near_text, 0, 1));
+  const auto end = static_cast<std::uint32_t>(far_text.size());
+  CHECK(Marked(far_text, end, end) == Marked(near_text, 603, 603));
+  // Many characters of several bytes.
+  std::string wide;
+  for (int i = 0; i < 20000; ++i) wide += "\xE2\x82\xAC";
+  CHECK(IsValidUtf8(Marked(wide, 30000, 30003)));
+  CHECK(IsValidUtf8(Marked(wide, 30001, 30002)));
+}
+
 }  // namespace ncport::diag

@@ -86,6 +86,17 @@ TEST_CASE("comments keep their places") {
   CHECK(read.module.View(read.module.comments[ir::CommentId{2}].text) == "BEHIND");
 }
 
+TEST_CASE("very long blocks are refused before the parser sees them") {
+  std::string words;
+  for (int i = 0; i < 1200; ++i) words += "X1";
+  CHECK(ReadText(words + "\nG0 X1.\n").Finding().starts_with("NC9007 "));
+  CHECK(ReadText(std::string(5000, ' ') + "X1.\n").Finding() == "NC9006 X1.");
+  std::string comments;
+  for (int i = 0; i < 1200; ++i) comments += "()";
+  CHECK(ReadText(comments + "X1.\n").Finding().starts_with("NC9007 "));
+  CHECK(ReadText("(" + std::string(100000, 'c') + ") G0 X1.\n").sink.Empty());
+}
+
 TEST_CASE("the shape cache changes nothing") {
   const std::string text = "G0 X1. Y2.\nG0 X3. Y4.\nG1 X1. F5.\nG1 X2. F6.\nX1 X1\nM8\nM9\n% \n";
   CHECK(ReadText(text).Dump() == ReadText(text, "iso-mill", false).Dump());

@@ -1,5 +1,6 @@
-// SINUMERIK text -> IR. The module verifies whatever the text is; the parser alone gives the same IR as the shape
-// cache; the dump reads back to the same dump; resolving names leaves a module that verifies too.
+// Text -> IR; one target for each language (NCPORT_FUZZ_PROFILE). The module verifies whatever the text is; the parser
+// alone gives the same IR as the shape cache; the dump reads back to the same dump; resolving names leaves a module
+// that verifies too.
 #include <string>
 
 #include "base/diag/sink.h"
@@ -23,7 +24,7 @@ std::string DumpOf(const ir::Module& module) {
 }
 
 const dialects::Profile& Profile() {
-  static const dialects::Profile profile = dialects::BuiltIn("sinumerik-840d-mill");
+  static const dialects::Profile profile = dialects::BuiltIn(NCPORT_FUZZ_PROFILE);
   return profile;
 }
 
@@ -34,7 +35,7 @@ void OneInput(std::string_view bytes) {
     SourceFiles files;
     diag::Sink sink;
     ir::Module module;
-    const FileId file = files.Add("fuzz.mpf", text);
+    const FileId file = files.Add(NCPORT_FUZZ_FILE, text);
     const Status status = frontend::ReadFile(files, file, Profile(), {.shape_cache = cache}, module, sink);
     NCPORT_CHECK(status.Ok() == !sink.HasErrors(), "reading says {} with {} errors", status.Ok(), sink.ErrorCount());
     ir::Verify(module, "read by the fuzzer", {.structure_built = true});

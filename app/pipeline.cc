@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <set>
 #include <string>
+#include <unordered_set>
 #include <utility>
 
 #include "app/run_arguments.h"
@@ -104,10 +104,9 @@ Status ReadSet(Context& context, std::vector<Input> inputs, const ReadSettings& 
   NCPORT_TRY_ASSIGN(set.profile, ChooseProfile(context, inputs.front(), settings, need));
   NCPORT_TRY(SameLanguage(context, inputs, settings, set.profile));
   Status ok;
+  std::unordered_set<std::string> named;
   for (Input& input : inputs) {
-    if (const FileId known = context.files.Find(input.name);
-        known.Valid() && std::find(set.inputs.begin(), set.inputs.end(), known) != set.inputs.end())
-      continue;  // named twice
+    if (!named.insert(input.name).second) continue;  // named twice
     FileId id;
     const Status added = AddFile(context, input, id);
     set.inputs.push_back(id);

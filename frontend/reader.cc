@@ -2,6 +2,7 @@
 
 #include <unordered_set>
 
+#include "frontend/common/program_names.h"
 #include "frontend/fanuc/reader.h"
 #include "frontend/fanuc/resolve.h"
 #include "frontend/iso/reader.h"
@@ -31,6 +32,9 @@ Status ReadFile(const SourceFiles& files, FileId file, const dialects::Profile& 
 
 std::vector<StringId> UnknownCallees(const ir::Module& module) {
   std::vector<StringId> unknown;
+  if (module.calls.Empty()) return unknown;
+  const ProgramNames names(module);
+  const sinumerik::ProgramIndex index(module);
   std::unordered_set<std::uint32_t> seen;
   for (const ir::Call& call : module.calls.All()) {
     StringId name = call.name;
@@ -40,8 +44,7 @@ std::vector<StringId> UnknownCallees(const ir::Module& module) {
     }
     if (!name.Valid() || call.program.Valid() || !seen.insert(name.value).second) continue;
     const std::string_view text = module.View(name);
-    if (!module.FindProgram(text, true).Valid() && !sinumerik::FindProgram(module, text).Valid())
-      unknown.push_back(name);
+    if (!names.Find(text).Valid() && !index.Find(text).Valid()) unknown.push_back(name);
   }
   return unknown;
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <unordered_set>
 
+#include "frontend/common/program_names.h"
 #include "frontend/fanuc/reader.h"
 
 namespace ncport::frontend::fanuc {
@@ -14,7 +15,7 @@ using ir::WordOp;
 
 class Resolver {
  public:
-  Resolver(ir::Module& module, diag::Sink& sink) : module_(module), sink_(sink) {}
+  Resolver(ir::Module& module, diag::Sink& sink) : module_(module), names_(module), sink_(sink) {}
 
   void Run() {
     for (const ir::ProgramId program : module_.programs.Ids()) {
@@ -37,7 +38,7 @@ class Resolver {
       return;
     }
     const std::string_view name = module_.View(call.name);
-    call.program = module_.FindProgram(name, true);
+    call.program = names_.Find(name);
     if (!call.program.Valid()) Split(name, call);
     if (!call.program.Valid() && missing_.insert(call.name.value).second) {
       // The block stays: a run that gets there ends in the alarm of the control.
@@ -52,7 +53,7 @@ class Resolver {
     const bool packed = name.size() > 5 && name[0] == 'O' && std::from_chars(name.data() + 1, end, number).ptr == end;
     if (!packed || call.new_level || call.passes.Valid() || number % 10000 == 0) return;
     const std::string plain = ProgramName(number % 10000);
-    const ir::ProgramId found = module_.FindProgram(plain, true);
+    const ir::ProgramId found = names_.Find(plain);
     if (!found.Valid()) return;
     call.program = found;
     call.name = module_.strings.Intern(plain);
@@ -65,6 +66,7 @@ class Resolver {
   }
 
   ir::Module& module_;
+  ProgramNames names_;
   diag::Sink& sink_;
   std::unordered_set<std::uint32_t> missing_;
 };

@@ -34,24 +34,30 @@ std::string KeyOf(ir::ProgramId owner, std::string_view name) {
 
 }  // namespace
 
-ir::ProgramId FindProgram(const ir::Module& module, std::string_view name) {
-  const std::string wanted = UpperOf(PlainProgramName(name));
-  ir::ProgramId found;
-  ir::ProgramId by_file;
+ProgramIndex::ProgramIndex(const ir::Module& module) {
   for (const ir::ProgramId id : module.programs.Ids()) {
     const ir::Program& program = module.programs[id];
-    if (IsWord(module.View(program.name), wanted)) {
+    const auto [entry, added] = by_name_.emplace(UpperOf(module.View(program.name)), id);
+    if (!added) {
       // Card 7.3: of two programs of one name the subprogram is taken, of the user's before the control's.
-      const bool better = !found.Valid() || (module.programs[found].library && !program.library) ||
-                          (module.programs[found].kind == ir::ProgramKind::kMain &&
-                           program.kind == ir::ProgramKind::kSub && module.programs[found].library == program.library);
-      if (better) found = id;
-    } else if (!by_file.Valid() && program.file.Valid() && program.file.value < module.file_names.size() &&
-               IsWord(PlainProgramName(module.View(module.file_names[program.file.value])), wanted)) {
-      by_file = id;  // PROC names it otherwise; the control looks for the file
+      const ir::Program& known = module.programs[entry->second];
+      const bool better = (known.library && !program.library) ||
+                          (known.kind == ir::ProgramKind::kMain && program.kind == ir::ProgramKind::kSub &&
+                           known.library == program.library);
+      if (better) entry->second = id;
     }
+    if (!program.file.Valid() || program.file.value >= module.file_names.size()) continue;
+    const std::string_view file = module.View(module.file_names[program.file.value]);
+    by_file_.emplace(UpperOf(PlainProgramName(file)), id);
   }
-  return found.Valid() ? found : by_file;
+}
+
+ir::ProgramId ProgramIndex::Find(std::string_view name) const {
+  const std::string wanted = UpperOf(PlainProgramName(name));
+  if (const auto found = by_name_.find(wanted); found != by_name_.end()) return found->second;
+  // PROC names it otherwise; the control looks for the file.
+  const auto found = by_file_.find(wanted);
+  return found != by_file_.end() ? found->second : ir::ProgramId{};
 }
 
 void ResolveNames(SourceFiles& files, ir::Module& module, const dialects::Profile& profile, diag::Sink& sink) {
@@ -61,6 +67,7 @@ void ResolveNames(SourceFiles& files, ir::Module& module, const dialects::Profil
 void Resolver::Run() {
   ReadLibrary();
   IndexVariables();
+  programs_.emplace(module_);
   for (const ir::ProgramId id : module_.programs.Ids()) Program(id);
   // What is left stands in refused blocks, which nobody looks into. What must be a place is none there.
   const auto clear_place = [this](ExprId& place) {

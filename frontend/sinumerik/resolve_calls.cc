@@ -49,7 +49,7 @@ bool Resolver::Call(ir::Word& word) {
     // CALL NAME BLOCK ..: a variable with the name of the program, or the program itself.
     if (name.op == ExprOp::kName && name.count == 0) {
       const StringId text{std::size_t{name.a}};
-      if (!FindVariable(module_.View(text)).Valid() && FindProgram(module_, module_.View(text)).Valid()) {
+      if (!FindVariable(module_.View(text)).Valid() && programs_->Find(module_.View(text)).Valid()) {
         name.op = ExprOp::kText;
         name.type = Type::kString;
         call.name = text;
@@ -63,12 +63,12 @@ bool Resolver::Call(ir::Word& word) {
         return Mismatch(call.name_expr, "a number", "the name of a program");
       }
       if (resolved.op == ExprOp::kText) {
-        call.program = FindProgram(module_, module_.View(StringId{std::size_t{resolved.a}}));
+        call.program = programs_->Find(module_.View(StringId{std::size_t{resolved.a}}));
       }
     }
   }
   if (call.name.Valid()) {
-    call.program = FindProgram(module_, module_.View(call.name));
+    call.program = programs_->Find(module_.View(call.name));
     if (!call.program.Valid() && !DeclaredArguments(call, word)) return false;
     if (!call.program.Valid() && missing_programs_.insert(std::string(module_.View(call.name))).second) {
       // The block stays: a run that gets there ends in the alarm of the control.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -11,6 +12,7 @@
 #include "base/diag/sink.h"
 #include "base/source_files.h"
 #include "dialects/profile.h"
+#include "frontend/sinumerik/resolve.h"
 #include "ir/module.h"
 
 namespace ncport::frontend::sinumerik {
@@ -90,7 +92,8 @@ class Resolver {
   };
   std::unordered_map<std::string, Missing> missing_names_;  // of program_, upper case
   std::unordered_set<std::string> missing_programs_;
-  ir::VariableId defined_;  // whose start value is resolved
+  ir::VariableId defined_;                // whose start value is resolved
+  std::optional<ProgramIndex> programs_;  // all programs are read when names are looked up
 };
 
 }  // namespace ncport::frontend::sinumerik

@@ -99,7 +99,7 @@ TEST_CASE("programs are found by prefix, suffix and path; leading zeros of L nam
   for (const std::uint32_t line : {2U, 3U, 4U, 5U}) {
     CHECK(result.module.calls[result.WordAt(line).Extra<ir::CallId>()].program == ir::ProgramId{1U});
   }
-  CHECK(FindProgram(result.module, "/x/_N_SUB_1_SPF").value == 1);
+  CHECK(ProgramIndex(result.module).Find("/x/_N_SUB_1_SPF").value == 1);
 }
 
 TEST_CASE("standard cycles come from the library, with the arguments they cover") {

@@ -34,8 +34,10 @@ Status AddFile(Context& context, Input& input, FileId& id) {
   return {};
 }
 
-/// Reads called programs until nothing new is asked for.
-Status ReadCalled(Context& context, const ReadSettings& settings, ProgramSet& set) {
+/// Reads called programs until nothing new is asked for. `read`: names of the files that the set has; another set of the
+/// same context may have read the same files.
+Status ReadCalled(Context& context, const ReadSettings& settings, std::unordered_set<std::string>& read,
+                  ProgramSet& set) {
   Status ok;
   if (!settings.find) return ok;
   std::set<std::string> asked;
@@ -46,7 +48,7 @@ Status ReadCalled(Context& context, const ReadSettings& settings, ProgramSet& se
       const std::string name(set.module.View(callee));
       if (!asked.insert(name).second) continue;
       std::optional<Input> found = settings.find(name);
-      if (!found || context.files.Find(found->name).Valid()) continue;
+      if (!found || !read.insert(found->name).second) continue;
       FileId id;
       const Status added = AddFile(context, *found, id);
       ok &= added;
@@ -113,7 +115,7 @@ Status ReadSet(Context& context, std::vector<Input> inputs, const ReadSettings& 
     ok &= added;
     if (added.Ok()) ok &= frontend::ReadFile(context.files, id, set.profile, {}, set.module, context.findings);
   }
-  ok &= ReadCalled(context, settings, set);
+  ok &= ReadCalled(context, settings, named, set);
   frontend::ResolveNames(context.files, set.module, set.profile, context.findings);
   return context.findings.HasErrors() ? ok & Failure{} : ok;
 }

@@ -1,6 +1,7 @@
 // Records of one kind, addressed by typed ids.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -26,7 +27,10 @@ class Store {
   [[nodiscard]] std::size_t Size() const { return records_.size(); }
   [[nodiscard]] bool Empty() const { return records_.empty(); }
   [[nodiscard]] bool Contains(IdType id) const { return id.value < records_.size(); }
-  void Reserve(std::size_t count) { records_.reserve(count); }
+  /// Room for `count` records, at least twice what there was: one call for each of many small files stays linear.
+  void Reserve(std::size_t count) {
+    if (count > records_.capacity()) records_.reserve(std::max(count, 2 * records_.capacity()));
+  }
   void Resize(std::size_t count) { records_.resize(count); }
 
   [[nodiscard]] const std::vector<Record>& All() const { return records_; }

@@ -4,11 +4,14 @@
 #include <string>
 #include <utility>
 
+#include "app/envelope.h"
+#include "app/flatten_report.h"
 #include "app/ncport.h"
 #include "app/pipeline.h"
 #include "backends/iso/flat_writer.h"
 #include "backends/iso/source_map.h"
 #include "dialects/machine.h"
+#include "ir/analysis/tool_change.h"
 
 namespace ncport {
 namespace {
@@ -40,6 +43,40 @@ std::vector<std::string> Heading(std::string_view name, const FlattenOptions& op
   return lines;
 }
 
+/// Lists an assumption on which word changes the tool, at the first tool word.
+void ReportToolChange(Context& context, const app::ProgramSet& set, const ir::Machine& machine) {
+  using ir::analysis::ToolChange;
+  if (ir::analysis::WhenToolsChange(set.module, machine) != ToolChange::kAssumedAtToolWord) return;
+  for (const ir::Block& block : set.module.blocks.All()) {
+    for (const ir::WordId id : block.words) {
+      const ir::Word& word = set.module.words[id];
+      if (word.op != ir::WordOp::kTool) continue;
+      const SourceRange at = set.module.RangeOf(block, word);
+      context.findings.Report(diag::Code::kAssumedToolChange, at, context.files.View(at)).help =
+          "where T changes the tool, say so in a profile file: [sinumerik] tool-change = \"t\"";
+      return;
+    }
+  }
+}
+
+/// One finding for all rapids that may go another way; the other blocks are notes.
+void ReportRapids(Context& context, const app::ProgramSet& set, const dialects::Profile& target,
+                  const std::vector<backends::iso::FlatRapid>& rapids) {
+  constexpr std::size_t kMostNotes = 20;
+  const auto place_of = [&](const backends::iso::FlatRapid& rapid) {
+    return rapid.block.Valid() ? set.module.RangeOf(set.module.blocks[rapid.block]) : SourceRange{};
+  };
+  if (rapids.empty()) return;
+  diag::Diagnostic& finding = context.findings.Report(diag::Code::kRapidPath, place_of(rapids.front()),
+                                                      app::RapidWay(set.profile), app::RapidWay(target));
+  for (std::size_t i = 1; i < rapids.size() && i <= kMostNotes; ++i)
+    finding.notes.push_back({place_of(rapids[i]), "and here"});
+  if (rapids.size() > kMostNotes + 1) {
+    finding.notes.push_back(
+        {SourceRange{}, fmt::format("and {} more; --report lists all", rapids.size() - kMostNotes - 1)});
+  }
+}
+
 }  // namespace
 
 Status Flatten(Context& context, std::vector<Input> inputs, const FlattenOptions& options, OutputSink& output) {
@@ -62,6 +99,7 @@ Status Flatten(Context& context, std::vector<Input> inputs, const FlattenOptions
   NCPORT_TRY(app::ReadSet(context, std::move(inputs), options, ProfileNeed::kNamed, set));
   NCPORT_TRY_ASSIGN(exec::RunOptions run, app::RunOptionsFor(context, set, options));
   run.count_turns = options.side_by_side || options.source_map != nullptr;
+  const ir::Machine machine = dialects::MachineFor(set.profile);
 
   exec::Coverage coverage;
   backends::iso::FlatOptions flat;
@@ -69,8 +107,8 @@ Status Flatten(Context& context, std::vector<Input> inputs, const FlattenOptions
   flat.config = options.config;
   flat.coverage = &coverage;
   flat.max_bytes = options.max_bytes;
-  flat.tool_changes_at_t = set.profile.sinumerik.tool_change.Is(dialects::SinumerikSettings::ToolChange::kAtT);
-
+  flat.start_offset = machine.start.work_offset;
+  flat.list_rapids = app::RapidsMayDiffer(set.profile, target);
   flat.only_listener = options.side_by_side;
   backends::iso::FlatWriter writer(set.module, context.files, target, std::move(flat), output, context.findings);
   backends::iso::SideBySideWriter columns(set.module, context.files, output);
@@ -84,10 +122,20 @@ Status Flatten(Context& context, std::vector<Input> inputs, const FlattenOptions
   if (listeners.Any()) writer.SetListener(&listeners);
 
   exec::NoEnvironment environment;
-  const ir::Machine machine = dialects::MachineFor(set.profile);
-  const exec::RunResult result = exec::Run(set.module, machine, run, environment, writer, context.findings, &coverage);
+  app::Envelopes envelopes(set.module, &writer);
+  exec::EventSink& events = options.report != nullptr ? static_cast<exec::EventSink&>(envelopes) : writer;
+  ReportToolChange(context, set, machine);
+  const exec::RunResult result = exec::Run(set.module, machine, run, environment, events, context.findings, &coverage);
   if (result.outcome != exec::Outcome::kEnded) return Failure{};
   Status ok = writer.Finish();
+  ReportRapids(context, set, target, writer.Record().rapids);
+  if (options.report != nullptr && !context.findings.HasErrors()) {
+    app::Report report = app::FlattenReport(context, set, target, options, writer.Record());
+    report.envelopes = envelopes.Result(context.files, options.config);
+    context.findings.SortByPlace();
+    app::AddFindings(report, context.findings, context.files);
+    ok &= options.report->Write(app::RenderReport(report, options.report_form));
+  }
   if (options.side_by_side) ok &= columns.Finish();
   if (map) ok &= map->Finish();
   return context.findings.HasErrors() ? ok & Failure{} : ok;

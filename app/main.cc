@@ -204,7 +204,7 @@ int RunTrace(const TraceArguments& arguments) {
 }
 
 struct FlattenArguments : Common, Running {
-  std::string to, output = "-", source_map;
+  std::string to, output = "-", source_map, report;
   bool side_by_side = false;
   std::uint64_t max_output = FlattenOptions{}.max_bytes;
 };
@@ -212,9 +212,20 @@ struct FlattenArguments : Common, Running {
 int RunFlatten(const FlattenArguments& arguments) {
   Session session(arguments);
   if (!session.Read()) return kUsage;
+  const std::optional<ReportForm> report_form =
+      arguments.report.empty() ? ReportForm::kHtml : ReportFormOf(arguments.report);
+  if (!report_form) {
+    Say(fmt::format("the form of the report follows from its ending, .html or .json; {} has another",
+                    arguments.report));
+    return kUsage;
+  }
   std::vector<std::unique_ptr<OutputFile>> files;
   files.push_back(std::make_unique<OutputFile>(arguments.output));
-  if (!arguments.source_map.empty()) files.push_back(std::make_unique<OutputFile>(arguments.source_map));
+  const auto add = [&](const std::string& path) -> OutputFile* {
+    return path.empty() ? nullptr : files.emplace_back(std::make_unique<OutputFile>(path)).get();
+  };
+  OutputFile* const map = add(arguments.source_map);
+  OutputFile* const report = add(arguments.report);
   for (const auto& file : files) {
     if (file->Open().Ok()) continue;
     Say(file->Error());
@@ -225,12 +236,16 @@ int RunFlatten(const FlattenArguments& arguments) {
   options.to = arguments.to;
   options.side_by_side = arguments.side_by_side;
   options.max_bytes = arguments.max_output;
-  if (files.size() > 1) options.source_map = &files[1]->Text();
+  if (map != nullptr) options.source_map = &map->Text();
+  if (report != nullptr) options.report = &report->Text();
+  options.report_form = *report_form;
+  if (arguments.output != "-") options.output_name = arguments.output;
   const Status ok = Flatten(session.context, session.TakeInputs(), options, files[0]->Text());
   const int code = session.End(ok);
   std::string error;
   // A failed write explains a failure without findings, and is wrong use of the disk, not an error of the program.
-  const bool writing_failed = files[0]->Text().Error() != 0 || (files.size() > 1 && files[1]->Text().Error() != 0);
+  const bool writing_failed =
+      std::any_of(files.begin(), files.end(), [](const auto& file) { return file->Text().Error() != 0; });
   if (code != kDone && !writing_failed) return code;
   if (CommitAll(files, error).Ok()) return code;
   Say(error);
@@ -439,6 +454,10 @@ int Main(int argc, char** argv) {
   command->add_option("-o", flatten.output, "file to write")->type_name("FILE");
   command
       ->add_option("--source-map", flatten.source_map, "file for the places that the blocks come from, as JSON lines")
+      ->type_name("FILE");
+  command
+      ->add_option("--report", flatten.report,
+                   "sheet that goes to the machine with the program; .html or .json by its ending")
       ->type_name("FILE");
   command->add_flag("--side-by-side", flatten.side_by_side, "source blocks beside their flat blocks, for reading");
   command->add_option("--max-output", flatten.max_output, "longest output in bytes");

@@ -16,6 +16,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/report.h"
 #include "base/diag/sink.h"
 #include "base/result.h"
 #include "base/source_files.h"
@@ -67,6 +68,9 @@ struct FlattenOptions : RunSettings {
   std::string to;                    // profile of the output; empty: from `config`
   bool side_by_side = false;         // source blocks beside flat ones, for reading; not a program
   OutputSink* source_map = nullptr;  // JSON lines, see backends/iso/source_map.h
+  OutputSink* report = nullptr;      // the sheet that goes to the machine, see app/report.h
+  app::ReportForm report_form = app::ReportForm::kHtml;
+  std::string output_name;  // as places in the report print it; may be empty
   std::uint64_t max_bytes = std::uint64_t{1} << 30U;
 };
 

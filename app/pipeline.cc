@@ -102,9 +102,11 @@ Result<dialects::Profile> ChooseProfile(Context& context, const Input& first, co
 }
 
 Status ReadSet(Context& context, std::vector<Input> inputs, const ReadSettings& settings, ProfileNeed need,
-               ProgramSet& set) {
+               ProgramSet& set, frontend::TokenListener* tokens) {
   NCPORT_TRY_ASSIGN(set.profile, ChooseProfile(context, inputs.front(), settings, need));
   NCPORT_TRY(SameLanguage(context, inputs, settings, set.profile));
+  frontend::ReadOptions reading;
+  reading.tokens = tokens;
   Status ok;
   std::unordered_set<std::string> named;
   for (Input& input : inputs) {
@@ -113,7 +115,7 @@ Status ReadSet(Context& context, std::vector<Input> inputs, const ReadSettings& 
     const Status added = AddFile(context, input, id);
     set.inputs.push_back(id);
     ok &= added;
-    if (added.Ok()) ok &= frontend::ReadFile(context.files, id, set.profile, {}, set.module, context.findings);
+    if (added.Ok()) ok &= frontend::ReadFile(context.files, id, set.profile, reading, set.module, context.findings);
   }
   ok &= ReadCalled(context, settings, named, set);
   frontend::ResolveNames(context.files, set.module, set.profile, context.findings);

@@ -11,6 +11,10 @@
 #include "ir/machine.h"
 #include "ir/module.h"
 
+namespace ncport::frontend {
+class TokenListener;
+}
+
 namespace ncport::app {
 
 /// What a command asks of `--from`: without it the profile is guessed (check, trace, dump) or refused (translate,
@@ -28,10 +32,11 @@ struct ProgramSet {
 Result<dialects::Profile> ChooseProfile(Context& context, const Input& first, const ReadSettings& settings,
                                         ProfileNeed need);
 
-/// Reads the inputs, then the called programs that they lack and `settings.find` has, and resolves all names. Fails
-/// after errors, but the set is complete as far as it could be read. Takes the bytes of the inputs over.
+/// Reads the inputs (their tokens go to `tokens` where it is given), then the called programs that they lack and
+/// `settings.find` has, and resolves all names. Fails after errors, but the set is complete as far as it could be read.
+/// Takes the bytes of the inputs over.
 Status ReadSet(Context& context, std::vector<Input> inputs, const ReadSettings& settings, ProfileNeed need,
-               ProgramSet& set);
+               ProgramSet& set, frontend::TokenListener* tokens = nullptr);
 
 /// Entry, arguments, start values of a run. Fails after findings.
 Result<exec::RunOptions> RunOptionsFor(Context& context, const ProgramSet& set, const RunSettings& settings);

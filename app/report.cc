@@ -65,7 +65,9 @@ Json EnvelopeJson(const ReportEnvelope& envelope) {
           {"speed", NumberJson(envelope.speed)},
           {"surfaceSpeed", NumberJson(envelope.surface_speed)},
           {"feed", NumberJson(envelope.feed)},
-          {"feedPerRevolution", NumberJson(envelope.feed_per_revolution)}};
+          {"feedPerRevolution", NumberJson(envelope.feed_per_revolution)},
+          {"speedLimit", NumberJson(envelope.speed_limit)},
+          {"feedLimit", NumberJson(envelope.feed_limit)}};
 }
 
 }  // namespace

@@ -58,14 +58,15 @@ struct ReportPoint {
 
 /// What one tool does from its call to the next one's.
 struct ReportEnvelope {
-  std::string tool;                           // words of the source; empty: before the first tool call
-  std::vector<ReportAxis> axes;               // of the ends of all moves and the bulge of arcs
-  std::optional<ReportPoint> first_approach;  // where the first feed move behind a rapid begins
-  std::optional<ReportPoint> last_approach;   // where the last one does
-  std::optional<double> speed;                // largest S, 1/min
-  std::optional<double> surface_speed;        // largest S under constant surface speed, m/min
-  std::optional<double> feed;                 // largest F, mm/min
-  std::optional<double> feed_per_revolution;  // mm
+  std::string tool;                               // words of the source; empty: before the first tool call
+  std::vector<ReportAxis> axes;                   // of the ends of all moves and the bulge of arcs
+  std::optional<ReportPoint> first_approach;      // where the first feed move behind a rapid begins
+  std::optional<ReportPoint> last_approach;       // where the last one does
+  std::optional<double> speed;                    // largest S, 1/min
+  std::optional<double> surface_speed;            // largest S under constant surface speed, m/min
+  std::optional<double> feed;                     // largest F, mm/min
+  std::optional<double> feed_per_revolution;      // mm
+  std::optional<double> speed_limit, feed_limit;  // 1/min, mm/min; of [limits]
 };
 
 /// A rapid of several axes whose path may differ between the two machines.

@@ -113,6 +113,12 @@ std::string PointText(const std::optional<ReportPoint>& point) {
   return place.empty() ? text : fmt::format("{} ({})", text, place);
 }
 
+/// A largest value, with its limit where one is known.
+std::string Against(const std::optional<double>& value, const std::optional<double>& limit) {
+  if (!value || !limit) return Number(value);
+  return fmt::format("{} (limit {}{})", Number(value), Number(limit), *value > *limit ? ": OUTSIDE" : "");
+}
+
 std::string LimitText(const ReportAxis& axis) {
   if (!axis.low_limit && !axis.high_limit) return {};
   const bool over = (axis.low_limit && axis.low < *axis.low_limit) || (axis.high_limit && axis.high > *axis.high_limit);
@@ -134,9 +140,9 @@ void WriteEnvelopes(Page& page, const Report& report) {
     page.Begin({"what", "value"});
     if (envelope.first_approach) page.Row({"first approach", PointText(envelope.first_approach)});
     if (envelope.last_approach) page.Row({"last approach", PointText(envelope.last_approach)});
-    if (envelope.speed) page.Row({"largest S, 1/min", Number(envelope.speed)});
+    if (envelope.speed) page.Row({"largest S, 1/min", Against(envelope.speed, envelope.speed_limit)});
     if (envelope.surface_speed) page.Row({"largest S, m/min", Number(envelope.surface_speed)});
-    if (envelope.feed) page.Row({"largest F, mm/min", Number(envelope.feed)});
+    if (envelope.feed) page.Row({"largest F, mm/min", Against(envelope.feed, envelope.feed_limit)});
     if (envelope.feed_per_revolution) page.Row({"largest F, mm per revolution", Number(envelope.feed_per_revolution)});
     page.End();
   }

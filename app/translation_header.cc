@@ -7,26 +7,10 @@
 #include <cstdint>
 #include <set>
 
+#include "app/source_hash.h"
+
 namespace ncport::app {
 namespace {
-
-/// FNV-1a over the texts that were read: the same sources give the same figure.
-std::uint64_t HashOf(const Context& context, const ir::Module& module) {
-  std::uint64_t hash = 0xCBF29CE484222325ULL;
-  std::set<std::uint32_t> files;
-  for (const ir::Program& program : module.programs.All()) {
-    if (program.file.Valid() && !program.library) files.insert(program.file.value);
-  }
-  for (const std::uint32_t file : files) {
-    const std::uint32_t count = context.files.LineCount(FileId{file});
-    for (std::uint32_t line = 1; line <= count; ++line) {
-      for (const char c : context.files.Line(FileId{file}, line))
-        hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3ULL;
-      hash = (hash ^ 0x0AU) * 0x100000001B3ULL;
-    }
-  }
-  return hash;
-}
 
 std::string TargetOf(const ir::transform::CellMapping& cell) {
   return cell.target.empty() ? fmt::format("#{}", cell.first) : cell.target;
@@ -86,7 +70,7 @@ std::vector<backends::ProgramHeader> HeadersOf(const Context& context, const Pro
       lines.push_back(fmt::format("NCPORT {} FROM {} TO {}", Version(), source.profile.name, FileNameOf(target.name)));
       std::string files;
       for (const FileId file : source.inputs) files += " " + FileNameOf(context.files.Name(file));
-      lines.push_back(fmt::format("SOURCE{} HASH {:016X}", files, HashOf(context, source.module)));
+      lines.push_back(fmt::format("SOURCE{} HASH {:016X}", files, HashOf(context.files, source.module)));
       for (const std::string& required : translation.required) lines.push_back("REQUIRES " + required);
       for (const backends::ProgramName& program : translation.programs)
         lines.push_back(fmt::format("PROGRAM {} = {}", program.source, program.target));

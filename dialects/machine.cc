@@ -35,6 +35,7 @@ ir::Machine MachineFor(const Profile& profile) {
   machine.lathe = profile.IsLathe();
   // X is the transverse axis of every lathe here; with `diameter = no` its words are radii and nothing is converted.
   if (machine.lathe && !profile.diameter.Is(DiameterRule::kNo)) machine.transverse_axis = 0;
+  machine.tool_word_changes = machine.lathe;  // a turret turns at T; languages say more
   machine.start = profile.start;
   machine.numeric_model = profile.numeric_model.Or(ir::NumericModel::kBinary64);
   machine.word_error = profile.word_error.Or(ir::WordError::kNone);

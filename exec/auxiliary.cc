@@ -70,7 +70,10 @@ void Auxiliary::Act(const ir::Word& word, const Value& value, bool edge_follows)
     case WordOp::kToolChange: {
       Event& event = emitter_.Begin(EventKind::kAux);
       event.number = 6;
-      return emitter_.Send(event);
+      event.tool_change = true;
+      emitter_.Send(event);
+      if (!session_.linked.ToolWordChanges()) TakeTool(edge_follows);
+      return;
     }
     case WordOp::kEdge:
       return Edge(Whole(value));
@@ -119,18 +122,29 @@ void Auxiliary::Speed(const ir::Word& word, double value) {
 }
 
 void Auxiliary::Tool(const Value& value, bool edge_follows) {
-  channel_.tool_known = true;
-  channel_.edge_known = false;
+  const bool changes = session_.linked.ToolWordChanges();
+  channel_.prepared_known = true;
   Event& event = emitter_.Begin(EventKind::kTool);
+  event.tool_waits = !changes;
   if (value.IsText()) {
-    channel_.tool_name = evaluator_.TextOf(value);
-    event.text = channel_.tool_name;
+    channel_.prepared_name = evaluator_.TextOf(value);
+    event.text = channel_.prepared_name;
   } else {
-    channel_.tool_name.clear();
-    channel_.tool_number = Whole(value);
-    event.number = static_cast<std::uint32_t>(channel_.tool_number);
+    channel_.prepared_name.clear();
+    channel_.prepared_number = Whole(value);
+    event.number = static_cast<std::uint32_t>(channel_.prepared_number);
   }
   emitter_.Send(event);
+  if (changes) TakeTool(edge_follows);
+}
+
+/// The tool that stands ready comes into the spindle. Its first edge becomes active where the machine says so
+/// (sinumerik-8.8: MD20270), unless the block names another.
+void Auxiliary::TakeTool(bool edge_follows) {
+  channel_.tool_known = channel_.prepared_known;
+  channel_.tool_number = channel_.prepared_number;
+  channel_.tool_name = channel_.prepared_name;
+  channel_.edge_known = false;
   if (session_.machine.tool_activates_edge && !edge_follows) Edge(1);
 }
 

@@ -25,6 +25,7 @@ class Auxiliary {
  private:
   void Speed(const ir::Word& word, double value);
   void Tool(const Value& value, bool edge_follows);
+  void TakeTool(bool edge_follows);
   void Offset(OffsetKind kind, double number);
   void Edge(double number);
   void Alarm(const ir::Word& word, const Value& value);

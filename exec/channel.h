@@ -78,7 +78,10 @@ struct Channel {
   };
   Spindle spindles[kSpindles];
 
-  // Tool.
+  // Tool: of the last tool word, and the one in the spindle.
+  bool prepared_known = false;
+  double prepared_number = 0;
+  std::string prepared_name;
   bool tool_known = false;
   double tool_number = 0;
   std::string tool_name;

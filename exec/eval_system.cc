@@ -115,6 +115,9 @@ Value Evaluator::ReadSystem(const ir::System& system, std::uint32_t key, std::st
     case SystemKind::kActiveTool:
       if (!channel_.tool_known || !channel_.tool_name.empty()) break;
       return Value::Int(channel_.tool_number);
+    case SystemKind::kProgrammedTool:
+      if (!channel_.prepared_known || !channel_.prepared_name.empty()) break;
+      return Value::Int(channel_.prepared_number);
     case SystemKind::kActiveEdge:
       if (!channel_.edge_known) break;
       return Value::Int(channel_.edge);

@@ -98,6 +98,14 @@ bool Kinematics::LayerCenter(const BlockWork& work, std::uint8_t axis, double& c
 void Kinematics::ApplyLayer(const BlockWork& work) {
   FrameLayers& layers = channel_.layers;
   const ir::Machine& machine = session_.machine;
+  if (work.frame == FrameOp::kMirrorAbout || work.frame == FrameOp::kMirrorEnd) {
+    // fanuc-8.5: mirrors are switched on before scale and rotation, and off behind them. What another order does is
+    // written nowhere, nor what the end of a mirror does that names no axis.
+    if (layers.rotates || layers.scales)
+      return session_.Refuse(diag::Code::kCannotRun, "a mirror switched while a rotation or scale is on");
+    if (work.axes == 0 && (work.frame == FrameOp::kMirrorAbout || layers.mirrored != 0))
+      return session_.Refuse(diag::Code::kCannotRun, "a mirror word that names no axis");
+  }
   switch (work.frame) {
     case FrameOp::kLocalShift:
       for (std::uint8_t axis = 0; axis < ir::kMaxAxes; ++axis) {

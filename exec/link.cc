@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "ir/analysis/tool_change.h"
+
 namespace ncport::exec {
 namespace {
 
@@ -32,6 +34,7 @@ Linked::Linked(const ir::Module& module, const ir::Machine& machine) : module_(&
   LayOutVariables();
   ClassifyBlocks();
   IndexTargets();
+  tool_word_changes_ = ir::analysis::WhenToolsChange(module, machine) != ir::analysis::ToolChange::kAtChangeWord;
 }
 
 void Linked::LayOutVariables() {

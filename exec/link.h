@@ -67,6 +67,8 @@ class Linked {
   [[nodiscard]] std::uint32_t ModalPlaces() const { return modal_places_; }
   [[nodiscard]] std::uint32_t ModalPlace(std::uint32_t index) const { return modal_offset_ + index * modal_size_; }
   [[nodiscard]] std::uint32_t LargestBlock() const { return largest_block_; }
+  /// A tool word changes the tool at once; else it waits for the change word. See ir/analysis/tool_change.h.
+  [[nodiscard]] bool ToolWordChanges() const { return tool_word_changes_; }
   [[nodiscard]] ir::ProgramId ProgramOf(ir::BlockId block) const;
 
   /// Labels and numbers of a program; null for programs that no jump, range or return looks into.
@@ -101,6 +103,7 @@ class Linked {
   std::uint32_t modal_offset_ = 0;
   std::uint32_t modal_size_ = 0;
   std::uint32_t largest_block_ = 0;
+  bool tool_word_changes_ = false;
 };
 
 /// Runs `options.entry` of a linked module. All state is in this call: runs may stand in several threads.

@@ -180,19 +180,25 @@ void Runner::Settings(const ir::Block& block) {
 
 void Runner::Actions(const ir::Block& block, Phase phase) {
   const bool edge = work_.Has(BlockWork::kEdge);
-  // A speed limit must be in force before the speed that it limits, and an offset belongs to the tool that the block
-  // changes to, wherever they stand in it: speed limits, everything else, offsets.
+  // A speed limit must be in force before the speed that it limits, the change word brings in the tool that its block
+  // names (fanuc-8.11: order free), and an offset belongs to the tool that the block changes to, wherever they stand in
+  // it: speed limits and a tool behind its change word, everything else, offsets.
   bool change = false;
+  bool late_tool = false;
   for (std::uint32_t index = block.words.begin; index < words_end_; ++index) {
-    change = change || session_.module.words[WordId{std::size_t{index}}].op == WordOp::kToolChange;
+    const WordOp op = session_.module.words[WordId{std::size_t{index}}].op;
+    change = change || op == WordOp::kToolChange;
+    late_tool = late_tool || (change && op == WordOp::kTool);
   }
   const auto round_of = [&](WordOp op) {
     if (op == WordOp::kSpeedLimit && phase == Phase::kBefore) return 0;
+    if (op == WordOp::kTool && late_tool) return 0;
     const bool offset = op == WordOp::kEdge || op == WordOp::kLengthOffset || op == WordOp::kRadiusOffset;
     return change && offset ? 2 : 1;
   };
   const int last = change ? 2 : 1;
-  for (int round = phase == Phase::kBefore && work_.Has(BlockWork::kSpeedLimit) ? 0 : 1; round <= last; ++round) {
+  const bool early = late_tool || work_.Has(BlockWork::kSpeedLimit);
+  for (int round = phase == Phase::kBefore && early ? 0 : 1; round <= last; ++round) {
     for (std::uint32_t index = block.words.begin; index < words_end_; ++index) {
       const Word& word = session_.module.words[WordId{std::size_t{index}}];
       if (word.phase != phase || round_of(word.op) != round) continue;

@@ -15,9 +15,11 @@ bool Kinematics::Thread(const BlockWork& work, Motion motion) {
   const bool tap = motion == Motion::kTapIn || motion == Motion::kTapOut;
   double centre = 0;
   int centres = 0;
+  std::uint8_t along = 0;  // axis of the lead's letter
   for (std::uint8_t letter = 0; letter < 3; ++letter) {
     if ((work.centers & (1U << letter)) == 0) continue;
     centre = work.center[letter] * LengthFactor();
+    along = letter;
     ++centres;
   }
   if (centres > 1) {
@@ -36,10 +38,21 @@ bool Kinematics::Thread(const BlockWork& work, Motion motion) {
   }
   contour_.OtherMotion();
   if (session_.halted) return false;
+  const std::uint16_t from_known = channel_.base_known;
   Adopt();
   if (session_.halted) return false;
   Event& event = MotionEvent(tap ? EventKind::kTap : EventKind::kThread);
   event.value = tap ? lead : std::fabs(lead);
+  if (!tap && !session_.machine.thread_lead_from_feed) {
+    // Under the letter of the axis with the shorter way the lead would mean something else, and nobody says what.
+    const auto way = [&](int axis) { return std::fabs(event.position[axis] - event.from[axis]); };
+    for (std::uint8_t axis = 0; axis < 3; ++axis) {
+      const bool known = ((from_known & event.known_axes) >> axis & 1U) != 0;
+      if (!known || !(way(axis) > way(along) * (1 + 1e-9) + 1e-9)) continue;
+      session_.Refuse(diag::Code::kCannotRun, "a lead under the letter of the axis with the shorter way");
+      return false;
+    }
+  }
   if (motion == Motion::kThreadIncreasing) event.change = std::fabs(change);
   if (motion == Motion::kThreadDecreasing) event.change = -std::fabs(change);
   if (work.Has(BlockWork::kStartAngle)) event.start_angle = work.start_angle;

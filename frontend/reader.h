@@ -12,12 +12,16 @@
 
 namespace ncport::frontend {
 
+class TokenListener;
+
 struct ReadOptions {
   /// Blocks of a shape that was seen before take the recipe of the first one. Off: each block is parsed; the IR is the
   /// same (a test and a fuzz target hold this).
   bool shape_cache = true;
   /// The file holds standard cycles that ncport brings along.
   bool library = false;
+  /// Gets the tokens of each block; null: nobody asks.
+  TokenListener* tokens = nullptr;
 };
 
 /// Appends the programs of one file, structure marks joined. Each wrong block is one finding, is marked kRefused and

@@ -232,6 +232,8 @@ constexpr std::string_view NameOf(SystemKind value) {
       return "active-speed";
     case SystemKind::kActiveTool:
       return "active-tool";
+    case SystemKind::kProgrammedTool:
+      return "programmed-tool";
     case SystemKind::kActiveEdge:
       return "active-edge";
     case SystemKind::kModalGroup:

@@ -260,7 +260,8 @@ enum class SystemKind : std::uint8_t {
   kMachinePosition,     // #5021..
   kActiveFeed,
   kActiveSpeed,
-  kActiveTool,
+  kActiveTool,      // in the spindle
+  kProgrammedTool,  // of the last tool word, which may only stand ready
   kActiveEdge,
   kModalGroup,       // $P_GG[n], #4001..: code of the group, by Machine::groups
   kModalCallActive,  // $P_MC

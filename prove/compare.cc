@@ -47,6 +47,10 @@ using Spindles = std::array<SpindleNow, exec::kSpindles>;
 
 /// What was selected on one side so far; each change is an event, a repetition is none.
 struct Selected {
+  // Tool of the last tool word, and the one that is in.
+  std::uint32_t called = 0;
+  std::string_view called_name;
+  bool called_known = false;
   bool tool_known = false;
   std::uint32_t tool = 0;
   std::string_view tool_name;
@@ -59,6 +63,12 @@ struct Selected {
   std::uint32_t wcs = 0, wcs_extension = 0;
   ir::CutterComp comp = ir::CutterComp::kUnknown;
   ir::PathMode path = ir::PathMode::kUnknown;
+
+  void TakeTool() {
+    tool_known = called_known;
+    tool = called;
+    tool_name = called_name;
+  }
 };
 
 /// One side as it is walked through.
@@ -140,10 +150,14 @@ bool Walk::TakeState(const Event& event) {
     const Selected before = state;
     switch (event.kind) {
       case EventKind::kTool:
-        state.tool_known = true;
-        state.tool = event.number;
-        state.tool_name = event.text;
+        state.called_known = true;
+        state.called = event.number;
+        state.called_name = event.text;
+        if (!event.tool_waits) state.TakeTool();
         return true;  // the same tool called twice is two calls
+      case EventKind::kAux:
+        if (event.tool_change) state.TakeTool();
+        return true;
       case EventKind::kOffset:
         state.offset_known = true;
         state.offset_kind = event.offset;
@@ -231,6 +245,7 @@ const Event* Walk::Next() {
       case EventKind::kSetVariable:
         continue;
       case EventKind::kAux:
+        if (event.tool_change) TakeState(event);
         if (event.number == 6 && event.text.empty()) now_.loaded = now_.tool;
         if (event.added) continue;
         if (!source_ && maps_.tool_change_added && event.number == 6) continue;

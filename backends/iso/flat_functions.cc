@@ -17,6 +17,11 @@ namespace {
 constexpr std::uint8_t kSense = 1;
 constexpr std::uint8_t kSpeed = 2;
 
+std::string_view Trimmed(std::string_view text) {
+  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+  return text;
+}
+
 }  // namespace
 
 void FlatWriter::WriteWords(std::string_view words) {
@@ -39,12 +44,15 @@ void FlatWriter::FlushPending(const exec::Event* next) {
       next != nullptr && next->kind == exec::EventKind::kSpindleLimit && next->block == pending_block_;
   if (tool_pending_ && lathe_ && offset_follows) return;  // LatheOffset writes both
   if (surface_pending_ && limit_follows) return;          // the limit must be in force first
+  // An offset of the block of G41 is the one that it takes.
+  if (comp_pending_ && offset_follows && next->block == pending_block_) return;
   const FlatOrigin origin =
       std::exchange(origin_, FlatOrigin{pending_block_, next == nullptr ? nullptr : next->frames});
   if (std::exchange(tool_pending_, false)) {
     const ToolMap::Answer answer = tools_.Tool();
     if (Report(answer)) WriteTool(answer);
   }
+  if (std::exchange(comp_pending_, false)) CompensationOn();
   if (std::exchange(surface_pending_, false)) {
     BeginLine();
     if (AppendSpeed(target_.spindle.css, lathe_ ? "G96 S{speed}" : "", surface_speed_)) {
@@ -167,10 +175,23 @@ bool FlatWriter::Report(const ToolMap::Answer& answer) {
   }
   if (diag::Diagnostic* diagnostic = Refuse(*answer.problem, answer.source, answer.assumed))
     diagnostic->help = answer.help;
+  if (!answer.Failed()) {
+    record_.assumptions.push_back(
+        fmt::format("{} becomes {}: the offset registers with the tool's number", answer.source, answer.assumed));
+  }
   return !answer.Failed();
 }
 
+/// Words of the target for the report: `T1 H1 D1`, `T0101`.
+std::string FlatWriter::WordsOf(const ToolMap::Answer& answer) {
+  std::string words = "T" + answer.tool;
+  if (answer.length) words += fmt::format(" H{}", *answer.length);
+  if (answer.radius) words += fmt::format(" D{}", *answer.radius);
+  return words;
+}
+
 void FlatWriter::WriteTool(const ToolMap::Answer& answer) {
+  FlatRecord::Add(record_.tools, answer.source, WordsOf(answer));
   if (lathe_) {
     if (answer.offset_in_tool) return WriteWords("T" + answer.tool);
     // A tool without an offset: the register 00 is none.
@@ -185,7 +206,7 @@ void FlatWriter::WriteTool(const ToolMap::Answer& answer) {
     const std::size_t blank = form.find(' ');
     const std::string_view word = form.substr(0, blank);
     form = blank == std::string_view::npos ? std::string_view{} : form.substr(blank + 1);
-    if (word.empty() || (word[0] == 'M' && !options_.tool_changes_at_t)) continue;
+    if (word.empty() || (word[0] == 'M' && !change_with_tool_)) continue;
     BeginLine();
     PutTemplate(word, values);
     EndLine();
@@ -194,9 +215,29 @@ void FlatWriter::WriteTool(const ToolMap::Answer& answer) {
 
 void FlatWriter::ToolCall(const exec::Event& event) {
   tools_.Select(event.number, event.text);
-  radius_register_.reset();
+  change_with_tool_ = !event.tool_waits;
+  if (change_with_tool_) ToolIsIn();
+  if (event.tool_waits && lathe_) return;  // on a turret T is the change: it has to wait
   tool_pending_ = true;
   pending_block_ = event.block;
+}
+
+/// What belonged to the tool before is of no use any more.
+void FlatWriter::ToolIsIn() {
+  tools_.Take();
+  radius_register_.reset();
+  early_edge_.reset();
+}
+
+/// An edge selected before any tool came in belongs to a tool that the run does not know. It matters once something
+/// moves with it.
+void FlatWriter::RefuseEarlyEdge() {
+  const exec::EventKind kind = std::exchange(kind_, exec::EventKind::kOffset);
+  const FlatOrigin origin = std::exchange(origin_, FlatOrigin{early_edge_->block, nullptr});
+  (void)Report(tools_.Edge(early_edge_->edge));
+  early_edge_.reset();
+  origin_ = origin;
+  kind_ = kind;
 }
 
 void FlatWriter::Offset(const exec::Event& event) { lathe_ ? LatheOffset(event) : MillOffset(event); }
@@ -232,7 +273,10 @@ void FlatWriter::LatheOffset(const exec::Event& event) {
   const std::string offset_text = fmt::format("{}", offset);
   const dialects::TemplateValue values[] = {{"tool", tool_text}, {"offset", offset_text}};
   BeginLine();
+  const std::size_t start = out_.size();
   PutTemplate(target_.words.tool.Known() ? std::string_view(*target_.words.tool) : "T{tool:02}{offset:02}", values);
+  FlatRecord::Add(record_.tools, fmt::format("T{} offset {}", tools_.Number(), offset),
+                  Trimmed(out_.View().substr(start)));
   EndLine();
 }
 
@@ -257,12 +301,17 @@ void FlatWriter::MillOffset(const exec::Event& event) {
 
 /// All offsets of an edge at once: its length under H, its radius for the next G41 or G42.
 void FlatWriter::EdgeOffset(std::uint32_t edge) {
+  if (!tools_.Known()) {
+    early_edge_ = {origin_.block, edge};
+    return;
+  }
   const ToolMap::Answer answer = tools_.Edge(edge);
   if (!Report(answer)) return;
   if (!answer.length) {
     Refuse(diag::Code::kUnmappedTool, answer.source);
     return;
   }
+  FlatRecord::Add(record_.tools, answer.source, WordsOf(answer));
   WriteWords(fmt::format("G43 H{}", *answer.length));
   const auto before = std::exchange(radius_register_, answer.radius);
   if (comp_ != ir::CutterComp::kOff && before != radius_register_ && radius_register_)
@@ -270,10 +319,20 @@ void FlatWriter::EdgeOffset(std::uint32_t edge) {
 }
 
 void FlatWriter::Compensation(const exec::Event& event) {
+  side_ = event.comp;
+  if (event.comp != ir::CutterComp::kOff && !lathe_) {
+    comp_pending_ = true;
+    pending_block_ = event.block;
+    return;
+  }
   comp_ = event.comp;
   if (event.comp == ir::CutterComp::kOff) return WriteWords("G40");
-  const std::string_view side = event.comp == ir::CutterComp::kLeft ? "G41" : "G42";
-  if (lathe_) return WriteWords(side);  // the register stands in the tool word
+  WriteWords(event.comp == ir::CutterComp::kLeft ? "G41" : "G42");  // the register stands in the tool word
+}
+
+void FlatWriter::CompensationOn() {
+  comp_ = side_;
+  const std::string_view side = side_ == ir::CutterComp::kLeft ? "G41" : "G42";
   if (!radius_register_) {
     Refuse(diag::Code::kOffsetWithoutTool, side);
     return;
@@ -281,16 +340,44 @@ void FlatWriter::Compensation(const exec::Event& event) {
   WriteWords(fmt::format("{} D{}", side, *radius_register_));
 }
 
+/// The source moves in the offset that its control starts with: the flat program says so, whatever its control was left
+/// in.
+void FlatWriter::WriteStartOffset(const exec::Event& motion) {
+  const ir::WorkOffset& start = options_.start_offset;
+  if (start.known && start.number != 0) {
+    exec::Event event = motion;
+    event.number = start.number;
+    event.extension = start.extension;
+    const exec::EventKind kind = std::exchange(kind_, exec::EventKind::kWorkOffset);
+    const FlatOrigin origin = std::exchange(origin_, FlatOrigin{});
+    const ir::BlockId comments = std::exchange(comments_of_, ir::BlockId{});
+    WorkOffset(event);
+    comments_of_ = comments;
+    origin_ = origin;
+    kind_ = kind;
+  }
+  work_offset_told_ = true;
+}
+
 void FlatWriter::WorkOffset(const exec::Event& event) {
+  work_offset_told_ = true;
   const std::string source = event.number == 0      ? std::string("none")
                              : event.extension != 0 ? fmt::format("G{}.1 P{}", event.number, event.extension)
                                                     : fmt::format("G{}", event.number);
   if (options_.config != nullptr) {
     if (const dialects::WordMapping* mapping = options_.config->FindOffset(event.number == 0 ? "G500" : source)) {
+      FlatRecord::Add(record_.offsets, source, mapping->target);
       return WriteWords(mapping->target);
     }
   }
-  if (event.extension == 0 && event.number >= 54 && event.number <= 59) return WriteWords(source);
+  const dialects::WriterWords& words = target_.words;
+  if (event.extension == 0 && event.number >= 54 && event.number <= 59) {
+    return WriteOffset(source, words.work_offset.Known() ? std::string_view(*words.work_offset) : "G{number}",
+                       event.number);
+  }
+  // An extended offset in the target's own form; the first one is P1 wherever there are any (fanuc-8.4).
+  if (event.extension != 0 && words.work_offset_extended.Known() && !words.work_offset_extended->empty())
+    return WriteOffset(source, *words.work_offset_extended, event.extension);
   if (diag::Diagnostic* diagnostic = Refuse(diag::Code::kUnmappedOffset, source)) {
     diagnostic->help =
         fmt::format("add to [offsets] in ncport.toml: \"{}\" = \"G54\", with the offset that stands for it here",
@@ -298,9 +385,24 @@ void FlatWriter::WorkOffset(const exec::Event& event) {
   }
 }
 
+void FlatWriter::WriteOffset(std::string_view source, std::string_view form, std::uint32_t number) {
+  const std::string digits = fmt::format("{}", number);
+  const dialects::TemplateValue values[] = {{"number", digits}};
+  BeginLine();
+  const std::size_t start = out_.size();
+  PutTemplate(form, values);
+  FlatRecord::Add(record_.offsets, source, Trimmed(out_.View().substr(start)));
+  EndLine();
+}
+
 // --- M functions, dwell
 
 void FlatWriter::Aux(const exec::Event& event) {
+  if (event.tool_change) {
+    ToolIsIn();
+    tool_pending_ = lathe_;
+    pending_block_ = event.block;
+  }
   const bool h = event.text == "H";
   const std::string address =
       event.extension == 0 ? std::string(h ? "H" : "M") : fmt::format("{}{}=", h ? "H" : "M", event.extension);
@@ -314,7 +416,11 @@ void FlatWriter::Aux(const exec::Event& event) {
   const dialects::MCodeRule* rule = options_.config == nullptr ? nullptr : find(options_.config->mcodes);
   if (rule == nullptr) rule = find(target_.mcodes);
   if (rule != nullptr) {
-    if (rule->target != "drop") return WriteWords(rule->target);
+    if (rule->target != "drop") {
+      FlatRecord::Add(record_.functions, word, rule->target);
+      return WriteWords(rule->target);
+    }
+    FlatRecord::Add(record_.functions, word, "");
     CommentLine("", word + " left out");
     return;
   }

@@ -139,14 +139,17 @@ void FlatWriter::Straight(const exec::Event& event, ir::Motion motion) {
   BeginLine();
   AppendModes(event, motion == ir::Motion::kLinear);
   AppendMotion(motion);
+  std::uint16_t moving = 0;
   for (std::uint32_t rest = event.known_axes; rest != 0; rest &= rest - 1) {
     const auto axis = static_cast<std::uint8_t>(std::countr_zero(rest));
     const std::int64_t value = Grid(axis, event.position[axis]);
     if (value == at_[axis] && (event.moved_axes >> axis & 1U) == 0) continue;
+    if (value != at_[axis]) moving = static_cast<std::uint16_t>(moving | (1U << axis));
     AppendAxis(axis, value);
   }
   if (motion == ir::Motion::kLinear) AppendFeed(event);
   EndLine();
+  if (options_.list_rapids && motion == ir::Motion::kRapid && (moving & (moving - 1U)) != 0) ListRapid(moving);
 }
 
 void FlatWriter::Arc(const exec::Event& event) {

@@ -18,6 +18,7 @@ constexpr std::uint8_t kWritten = 2;  // its comments are in the output
 constexpr std::uint8_t kRefused = 4;  // has a finding of this writer
 constexpr std::uint8_t kListed = 8;   // has a listed loss
 constexpr std::uint8_t kFresh = 16;   // comments are written next
+constexpr std::uint8_t kRapid = 32;   // is in the list of rapids
 
 /// How many blocks an event looks back for comments: keeps jumps across long programs linear. What lies further comes
 /// last.
@@ -27,6 +28,8 @@ constexpr std::size_t kFlushAt = std::size_t{1} << 16U;
 
 /// Axis letters of a flat program, in the order of exec's axis numbers.
 constexpr std::string_view kAxisLetters = "XYZABCUVW";
+
+bool Moves(exec::EventKind kind) { return kind <= exec::EventKind::kProbe; }
 
 bool IsSpindleWord(exec::EventKind kind) {
   return kind == exec::EventKind::kSpindle || kind == exec::EventKind::kSpindleSpeed;
@@ -73,11 +76,15 @@ FlatWriter::FlatWriter(const ir::Module& module, const SourceFiles& files, const
 bool FlatWriter::OnEvent(const exec::Event& event) {
   if (failed_) return false;
   if (!header_written_) WriteHeader(event);
-  if (tool_pending_ || surface_pending_) FlushPending(&event);
+  if (tool_pending_ || surface_pending_ || comp_pending_) FlushPending(&event);
   if (open_words_ != 0 && (!IsSpindleWord(event.kind) || event.block != origin_.block)) CloseOpenLine();
   origin_ = {event.block, event.frames};
   kind_ = event.kind;
   if (event.block.Valid() && (marks_[event.block.value] & kWritten) == 0) EnterBlock(event.block);
+  if (Moves(event.kind)) {
+    if (!work_offset_told_) WriteStartOffset(event);
+    if (early_edge_) RefuseEarlyEdge();
+  }
   Dispatch(event);
   return FlushIfFull();
 }
@@ -231,7 +238,8 @@ Status FlatWriter::Flush() {
 Status FlatWriter::Finish() {
   if (failed_) return Failure{};
   if (!header_written_) WriteHeader(exec::Event{});
-  if (tool_pending_ || surface_pending_) FlushPending(nullptr);
+  if (tool_pending_ || surface_pending_ || comp_pending_) FlushPending(nullptr);
+  if (early_edge_) RefuseEarlyEdge();
   CloseOpenLine();
   WriteLeftoverComments();
   origin_ = {};
@@ -310,11 +318,18 @@ void FlatWriter::WriteLostWordsOf(ir::BlockId id) {
   const ir::Block& block = module_.blocks[id];
   for (const ir::WordId word_id : block.words) {
     const ir::Word& word = module_.words[word_id];
+    if (word.op == ir::WordOp::kDataSetting) {
+      // Data of the machine (G10): flat blocks have no word for them, and what comes after may stand on them.
+      const SourceRange range = module_.RangeOf(block, word);
+      NoteCalls(sink_.Report(diag::Code::kNotExpressible, range, "writing data of the machine", target_.name));
+      continue;
+    }
     const bool inert = word.op == ir::WordOp::kInert && word.phase == ir::Phase::kSetting;  // else part of a dwell
     if (word.op != ir::WordOp::kPreprocessStop && word.op != ir::WordOp::kWorkpiece && !inert) continue;
     const SourceRange range = module_.RangeOf(block, word);
     const std::string_view text = files_.View(range);
     CommentLine("", text);
+    record_.losses.push_back({range, std::string(text), line_});
     NoteCalls(sink_.Report(diag::Code::kListedLoss, range, std::string(text), target_.name));
   }
 }
@@ -429,6 +444,16 @@ SourceRange FlatWriter::Place() const {
   return whole.Valid() ? whole : module_.RangeOf(block);
 }
 
+/// Lists a rapid of several axes, each source block once.
+void FlatWriter::ListRapid(std::uint16_t axes) {
+  if (origin_.block.Valid()) {
+    std::uint8_t& marks = marks_[origin_.block.value];
+    if ((marks & kRapid) != 0) return;
+    marks |= kRapid;
+  }
+  record_.rapids.push_back({origin_.block, line_, axes});
+}
+
 /// One finding of a code for each source block, however often it runs. Null when there was one.
 diag::Diagnostic* FlatWriter::Refuse(diag::Code code, std::string_view what, std::string_view more) {
   const std::uint8_t mark = code == diag::Code::kListedLoss || code == diag::Code::kAssumedOffset ? kListed : kRefused;
@@ -437,6 +462,7 @@ diag::Diagnostic* FlatWriter::Refuse(diag::Code code, std::string_view what, std
     if ((marks & mark) != 0) return nullptr;
     marks |= mark;
   }
+  if (code == diag::Code::kListedLoss) record_.losses.push_back({Place(), std::string(what), line_});
   const std::string second(more.empty() ? std::string_view(target_.name) : more);
   diag::Diagnostic& diagnostic = sink_.Report(code, Place(), std::string(what), second);
   NoteCalls(diagnostic);

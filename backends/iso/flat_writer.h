@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "backends/iso/flat_arc.h"
+#include "backends/iso/flat_record.h"
 #include "backends/iso/tool_map.h"
 #include "base/diag/sink.h"
 #include "base/source_files.h"
@@ -45,8 +46,9 @@ struct FlatOptions {
   const dialects::Config* config = nullptr;  // maps of tools, offsets, M functions
   const exec::Coverage* coverage = nullptr;  // of the same run: which blocks ran. Without it all count as run.
   std::uint64_t max_bytes = std::uint64_t{1} << 30U;
-  bool tool_changes_at_t = false;  // the source changes tools at T, without M6
-  bool only_listener = false;      // the text goes to the listener alone
+  ir::WorkOffset start_offset;  // in force at the start of the source; unknown or none: nothing is written for it
+  bool list_rapids = false;     // those of several axes go to the record
+  bool only_listener = false;   // the text goes to the listener alone
 };
 
 /// Writes the events of one run to `output`. Call Finish behind the run.
@@ -61,6 +63,7 @@ class FlatWriter final : public exec::EventSink {
   /// written; refusals are in the sink.
   Status Finish();
   [[nodiscard]] std::uint64_t Lines() const { return line_; }
+  [[nodiscard]] const FlatRecord& Record() const { return record_; }
 
  private:
   // flat_writer.cc: lines, comments, dispatch
@@ -86,6 +89,7 @@ class FlatWriter final : public exec::EventSink {
   diag::Diagnostic* Refuse(diag::Code code, std::string_view what, std::string_view more = {});
   [[nodiscard]] SourceRange Place() const;
   void NoteCalls(diag::Diagnostic& diagnostic) const;
+  void ListRapid(std::uint16_t axes);
 
   // flat_motion.cc
   void Straight(const exec::Event& event, ir::Motion motion);
@@ -108,15 +112,21 @@ class FlatWriter final : public exec::EventSink {
   bool PutSense(const dialects::Setting<std::string>& word);
   void FlushPending(const exec::Event* next);
   void ToolCall(const exec::Event& event);
+  void ToolIsIn();
+  void RefuseEarlyEdge();
   void Offset(const exec::Event& event);
   void LatheOffset(const exec::Event& event);
   void MillOffset(const exec::Event& event);
   void EdgeOffset(std::uint32_t edge);
   void Compensation(const exec::Event& event);
+  void CompensationOn();
   void WorkOffset(const exec::Event& event);
+  void WriteOffset(std::string_view source, std::string_view form, std::uint32_t number);
+  void WriteStartOffset(const exec::Event& motion);
   void Aux(const exec::Event& event);
   void Dwell(const exec::Event& event);
   bool Report(const ToolMap::Answer& answer);
+  [[nodiscard]] static std::string WordsOf(const ToolMap::Answer& answer);
   void WriteTool(const ToolMap::Answer& answer);
   void WriteWords(std::string_view words);
 
@@ -128,6 +138,7 @@ class FlatWriter final : public exec::EventSink {
   diag::Sink& sink_;
   FlatListener* listener_ = nullptr;
   ToolMap tools_;
+  FlatRecord record_;
 
   TextBuffer out_;
   std::size_t line_begin_ = 0;  // in out_
@@ -161,8 +172,17 @@ class FlatWriter final : public exec::EventSink {
 
   // Words that wait for the next event: a tool call for its offset, surface speed for its limit.
   bool tool_pending_ = false;
+  bool change_with_tool_ = false;  // the tool word of the source changes the tool: M6 goes with it
+  struct EarlyEdge {
+    ir::BlockId block;
+    std::uint32_t edge = 0;
+  };
+  std::optional<EarlyEdge> early_edge_;  // selected before any tool came in
+  bool work_offset_told_ = false;        // the text has selected one, or needs none
   bool surface_pending_ = false;
-  double surface_speed_ = 0;  // m/min
+  bool comp_pending_ = false;
+  ir::CutterComp side_ = ir::CutterComp::kOff;  // of the pending word
+  double surface_speed_ = 0;                    // m/min
   ir::BlockId pending_block_;
   bool speed_is_rpm_ = false;  // lathe: the text says that S is a speed, not a surface speed
   std::optional<std::int64_t> radius_register_;

@@ -4,14 +4,10 @@
 
 namespace ncport::backends::iso {
 
-void ToolMap::Select(std::uint32_t number, std::string_view name) {
-  known_ = true;
-  number_ = number;
-  name_ = name;
-}
+void ToolMap::Select(std::uint32_t number, std::string_view name) { called_ = {true, number, std::string(name)}; }
 
-std::string ToolMap::Word() const {
-  return name_.empty() ? fmt::format("T{}", number_) : fmt::format("T=\"{}\"", name_);
+std::string ToolMap::WordOf(const Called& tool) {
+  return tool.name.empty() ? fmt::format("T{}", tool.number) : fmt::format("T=\"{}\"", tool.name);
 }
 
 // The target side of a [tools] line: T with digits; H, D and M6 on a mill. Anything else is not a tool call of flat
@@ -53,14 +49,14 @@ ToolMap::Answer ToolMap::Mapped(const dialects::WordMapping& mapping, std::strin
 }
 
 ToolMap::Answer ToolMap::Tool() const {
-  const std::string word = Word();
+  const std::string word = WordOf(called_);
   if (config_ != nullptr) {
     if (const dialects::WordMapping* mapping = config_->FindTool(word)) return Mapped(*mapping, word);
   }
   Answer answer;
   answer.source = word;
-  if (name_.empty()) {
-    answer.tool = fmt::format("{}", number_);
+  if (called_.name.empty()) {
+    answer.tool = fmt::format("{}", called_.number);
     return answer;
   }
   answer.problem = diag::Code::kUnmappedTool;
@@ -70,34 +66,34 @@ ToolMap::Answer ToolMap::Tool() const {
 
 ToolMap::Answer ToolMap::Edge(std::uint32_t edge) const {
   Answer answer;
-  if (!known_) {
+  if (!in_.known) {
     answer.source = fmt::format("D{}", edge);
     answer.problem = diag::Code::kOffsetWithoutTool;
     answer.help = fmt::format("write the tool call in front of it: D{} is an edge of the tool that is active", edge);
     return answer;
   }
-  const std::string words = fmt::format("{} D{}", Word(), edge);
+  const std::string words = fmt::format("{} D{}", WordOf(in_), edge);
   if (config_ != nullptr) {
     if (const dialects::WordMapping* mapping = config_->FindTool(words)) return Mapped(*mapping, words);
   }
   answer.source = words;
-  const bool two_digits_enough = !lathe_ || number_ < 100;
-  if (!name_.empty() || edge != 1 || !two_digits_enough) {
+  const bool two_digits_enough = !lathe_ || in_.number < 100;
+  if (!in_.name.empty() || edge != 1 || !two_digits_enough) {
     answer.problem = diag::Code::kUnmappedTool;
     answer.help = fmt::format("add to [tools] in ncport.toml: '{}' = \"{}\", with the registers that hold this edge",
                               words, lathe_ ? "T0111" : "T1 H11 D11");
     return answer;
   }
   answer.problem = diag::Code::kAssumedOffset;
-  answer.tool = fmt::format("{}", number_);
-  answer.length = number_;
-  answer.radius = number_;
+  answer.tool = fmt::format("{}", in_.number);
+  answer.length = in_.number;
+  answer.radius = in_.number;
   if (lathe_) {
-    answer.tool = fmt::format("{:02}{:02}", number_, number_);
+    answer.tool = fmt::format("{:02}{:02}", in_.number, in_.number);
     answer.offset_in_tool = true;
     answer.assumed = "T" + answer.tool;
   } else {
-    answer.assumed = fmt::format("T{0} H{0} D{0}", number_);
+    answer.assumed = fmt::format("T{0} H{0} D{0}", in_.number);
   }
   answer.help = fmt::format("if the registers are others, add to [tools] in ncport.toml: '{}' = \"...\"", words);
   return answer;

@@ -30,26 +30,32 @@ class ToolMap {
 
   ToolMap(const dialects::Config* config, bool lathe) : config_(config), lathe_(lathe) {}
 
-  /// A tool call of the source: by number, or by name when `name` is not empty.
+  /// A tool word of the source: by number, or by name when `name` is not empty. The tool stands ready until Take.
   void Select(std::uint32_t number, std::string_view name);
-  [[nodiscard]] bool Known() const { return known_; }
-  [[nodiscard]] std::uint32_t Number() const { return number_; }
-  [[nodiscard]] bool Named() const { return !name_.empty(); }
+  /// The tool that stands ready comes in: edges are its edges from now on.
+  void Take() { in_ = called_; }
+  /// A tool came in during this run.
+  [[nodiscard]] bool Known() const { return in_.known; }
+  [[nodiscard]] std::uint32_t Number() const { return in_.number; }
 
-  /// Words for the tool alone.
+  /// Words for the tool of the last tool word alone.
   [[nodiscard]] Answer Tool() const;
-  /// Words for the tool with this edge.
+  /// Words for the tool that is in, with this edge.
   [[nodiscard]] Answer Edge(std::uint32_t edge) const;
 
  private:
-  [[nodiscard]] std::string Word() const;
+  struct Called {
+    bool known = false;
+    std::uint32_t number = 0;
+    std::string name;
+  };
+  [[nodiscard]] static std::string WordOf(const Called& tool);
   [[nodiscard]] Answer Mapped(const dialects::WordMapping& mapping, std::string source) const;
 
   const dialects::Config* config_;
   bool lathe_;
-  bool known_ = false;
-  std::uint32_t number_ = 0;
-  std::string name_;
+  Called called_;  // by the last tool word
+  Called in_;      // in the spindle
 };
 
 }  // namespace ncport::backends::iso

@@ -71,7 +71,7 @@ constexpr SystemRange kRanges[] = {
     Known(4109, 4109, 4109, "active feed", K::kActiveFeed, kMakers, "fanuc-9.4"),
     Read(4110, 4118, "modal words", kMakers, "fanuc-9.4"),
     Known(4119, 4119, 4119, "active speed", K::kActiveSpeed, kMakers, "fanuc-9.4"),
-    Known(4120, 4120, 4120, "active tool", K::kActiveTool, kMakers, "fanuc-9.4"),
+    Known(4120, 4120, 4120, "modal T", K::kProgrammedTool, kMakers, "fanuc-9.4"),
     Read(4121, 4130, "modal words", kMakers, "fanuc-9.4"),
     Read(4301, 4330, "words of the running block", kFanuc | kMazak, "fanuc-9.8"),
 

@@ -122,7 +122,7 @@ constexpr SystemRow kRows[] = {
     {"P_TOOLND", K::kEnvironment, Type::kInt, false, 1},
     {"P_TOOLNO", K::kActiveTool, Type::kInt, false, 0},
     {"P_TOOLNT", K::kEnvironment, Type::kInt, false, 0},
-    {"P_TOOLP", K::kActiveTool, Type::kInt, false, 0},
+    {"P_TOOLP", K::kProgrammedTool, Type::kInt, false, 0},
     {"P_TOOLR", K::kEnvironment, Type::kReal, false, 0},
     {"P_TRAFRAME", K::kEnvironment, Type::kFrame, true, 0},
     {"P_UBFR", K::kEnvironment, Type::kFrame, true, 0},

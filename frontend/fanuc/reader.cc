@@ -9,6 +9,7 @@
 #include "frontend/common/module_mark.h"
 #include "frontend/common/report_line_error.h"
 #include "frontend/common/shape_cache.h"
+#include "frontend/common/token_listener.h"
 #include "frontend/fanuc/hints.h"
 #include "frontend/fanuc/lower.h"
 #include "frontend/fanuc/parser.h"
@@ -19,6 +20,12 @@
 namespace ncport::frontend::fanuc {
 
 namespace {
+
+constexpr std::string_view kTokenNames[] = {
+    "None",
+#define NCPORT_TOKEN(Name) #Name,
+#include "frontend/fanuc/token_kinds.def"
+};
 
 using diag::Code;
 using ir::WordOp;
@@ -169,6 +176,7 @@ class Reader {
   // Returns the byte where the next block of the line begins.
   std::uint32_t ReadBlock(std::string_view text, std::uint32_t line, std::uint32_t begin) {
     source_.Lex(text, begin);
+    if (options_.tokens != nullptr) options_.tokens->OnTokens(file_, line, text, source_.Tokens(), kTokenNames);
     const std::span<const Token> tokens = source_.Tokens();
     if (!tokens.empty()) Head(tokens, line);
     ir::Block block = NewBlock(line);

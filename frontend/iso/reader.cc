@@ -6,6 +6,7 @@
 #include "frontend/common/module_mark.h"
 #include "frontend/common/report_line_error.h"
 #include "frontend/common/reserve.h"
+#include "frontend/common/token_listener.h"
 #include "frontend/iso/lower.h"
 #include "frontend/iso/parser.h"
 #include "frontend/iso/token_kind.h"
@@ -14,6 +15,12 @@
 
 namespace ncport::frontend::iso {
 namespace {
+
+constexpr std::string_view kTokenNames[] = {
+    "None",
+#define NCPORT_TOKEN(Name) #Name,
+#include "frontend/iso/token_kinds.def"
+};
 
 using K = TokenKind;
 
@@ -71,6 +78,7 @@ class Reader {
       return;
     }
     source_.Lex(text);
+    if (options_.tokens != nullptr) options_.tokens->OnTokens(file_, line, text, source_.Tokens(), kTokenNames);
     block.indent = static_cast<std::uint16_t>(std::min<std::uint32_t>(source_.Indent(), 0xFFFF));
     const std::span<const Token> tokens = source_.Tokens();
     if (!tokens.empty() && static_cast<K>(tokens[0].kind) == K::kBlockNumber && tokens[0].digits <= 9) {

@@ -10,6 +10,7 @@
 #include "frontend/common/report_line_error.h"
 #include "frontend/common/reserve.h"
 #include "frontend/common/shape_cache.h"
+#include "frontend/common/token_listener.h"
 #include "frontend/sinumerik/hints.h"
 #include "frontend/sinumerik/lower.h"
 #include "frontend/sinumerik/parser.h"
@@ -20,6 +21,12 @@
 namespace ncport::frontend::sinumerik {
 
 namespace {
+
+constexpr std::string_view kTokenNames[] = {
+    "None",
+#define NCPORT_TOKEN(Name) #Name,
+#include "frontend/sinumerik/token_kinds.def"
+};
 
 using diag::Code;
 using ir::WordOp;
@@ -213,6 +220,7 @@ class Reader {
   void ReadLine(std::string_view text, std::uint32_t line) {
     ir::Block block = NewBlock(line);
     source_.Lex(text, state_.macros);
+    if (options_.tokens != nullptr) options_.tokens->OnTokens(file_, line, text, source_.Tokens(), kTokenNames);
     block.indent = static_cast<std::uint16_t>(std::min<std::uint32_t>(source_.Indent(), 0xFFFF));
     const std::span<const Token> tokens = source_.Tokens();
     block.words.begin = static_cast<std::uint32_t>(module_.words.Size());

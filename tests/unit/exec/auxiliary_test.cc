@@ -41,8 +41,65 @@ TEST_CASE_FIXTURE(RunFixture, "surface speed brings the feed per revolution; inc
   CHECK(inch.Trace({"G700 G96 S100"}) == "SPINDLE CSS 30.48\n");
 }
 
-TEST_CASE_FIXTURE(RunFixture, "tools, edges and registers") {
+TEST_CASE_FIXTURE(RunFixture, "a tool that T makes ready brings its edge with the change (sinumerik-8.8)") {
   machine.tool_activates_edge = true;
+  CHECK(Trace({"T1 M6", "G0 X1", "T2", "X2", "M6", "X3"}) ==
+        "TOOL 1\nM6\nOFFSET EDGE 1\nRAPID X1\nTOOL 2\nRAPID X2\nM6\nOFFSET EDGE 1\nRAPID X3\n");
+  RunFixture apart;
+  apart.machine.tool_activates_edge = true;
+  // An edge between T and M6 is one of the tool that is still in.
+  CHECK(apart.Trace({"T1", "M6", "D3", "T2 D2", "M6", "D0"}) ==
+        "TOOL 1\nM6\nOFFSET EDGE 1\nOFFSET EDGE 3\nTOOL 2\nOFFSET EDGE 2\nM6\nOFFSET EDGE 1\nOFFSET NONE\n");
+  RunFixture joined;
+  joined.machine.tool_activates_edge = true;
+  CHECK(joined.Trace({"D2 T1 M6", "M6 T4 D1"}) == "TOOL 1\nM6\nOFFSET EDGE 2\nTOOL 4\nM6\nOFFSET EDGE 1\n");
+}
+
+TEST_CASE_FIXTURE(RunFixture, "the change may stand in a called program") {
+  machine.tool_activates_edge = true;
+  ir::ProgramBuilder change(module, "CHANGE", ir::ProgramKind::kSub);
+  Line(change, "M6");
+  Line(change, "M17");
+  change.Finish();
+  ir::ProgramBuilder program(module, "MAIN");
+  options.entry = program.Id();
+  Line(program, "T7");
+  program.Block().Call(change.Id()).Finish();
+  Line(program, "T8");
+  program.Block().Call(change.Id()).Finish();
+  Line(program, "M30");
+  program.Finish();
+  CHECK(Run() == "TOOL 7\nM6\nOFFSET EDGE 1\nTOOL 8\nM6\nOFFSET EDGE 1\nEND\n");
+}
+
+TEST_CASE_FIXTURE(RunFixture, "events tell whether the tool is in") {
+  struct Events final : EventSink {
+    bool OnEvent(const Event& event) override {
+      seen += event.kind == EventKind::kTool ? (event.tool_waits ? "waits " : "in ")
+              : event.tool_change            ? "change "
+                                             : "";
+      return true;
+    }
+    std::string seen;
+  };
+  ir::ProgramBuilder program(module, "MAIN");
+  for (const char* line : {"T1", "M6", "M30"}) Line(program, line);
+  program.Finish();
+  NoEnvironment nothing;
+  RunOptions run;
+  run.entry = ir::ProgramId{0};
+  Events mill;
+  exec::Run(module, machine, run, nothing, mill, sink);
+  CHECK(mill.seen == "waits change ");
+  machine.tool_word_changes = true;
+  Events turret;
+  exec::Run(module, machine, run, nothing, turret, sink);
+  CHECK(turret.seen == "in change ");
+}
+
+TEST_CASE_FIXTURE(RunFixture, "tools, edges and registers where the tool word changes the tool") {
+  machine.tool_activates_edge = true;
+  machine.tool_word_changes = true;
   ir::ProgramBuilder program(module, "MAIN");
   Line(program, "T3");
   Line(program, "T4 D2");

@@ -328,7 +328,8 @@ TEST_CASE_FIXTURE(RunFixture, "system variables that follow from the program") {
   const auto third = system(ir::SystemKind::kPlaneAxis, "$P_AXN3", 3);
   const auto level = system(ir::SystemKind::kProgramLevel, "$P_STACK");
   const auto memory = system(ir::SystemKind::kUserMemory, "$AC_MARKER");
-  Line(program, "G700 G0 X1 Y2 G54 T5 D2 S800 F10 G19");
+  const auto called = system(ir::SystemKind::kProgrammedTool, "$P_TOOLP");
+  Line(program, "G700 G0 X1 Y2 G54 T5 M6 D2 S800 F10 G19");
   program.Block()
       .Assign(R(1), e.System(position, {e.AxisName(0)}))
       .Assign(R(2), e.System(group, {I("1")}))
@@ -341,6 +342,7 @@ TEST_CASE_FIXTURE(RunFixture, "system variables that follow from the program") {
       .Assign(R(9), e.System(level))
       .Assign(e.System(memory, {I("4")}), N("3"))
       .Assign(R(10), Add(e.System(memory, {I("4")}), e.System(memory, {I("5")})))
+      .Assign(R(12), e.System(called))
       .Finish();
   program.Block().Assign(R(11), e.System(position, {e.AxisName(2)})).Finish();
   program.Finish();
@@ -350,8 +352,24 @@ TEST_CASE_FIXTURE(RunFixture, "system variables that follow from the program") {
   CHECK(Finding() == "$P_EP is known only to the machine");
   module.blocks[ir::BlockId{std::size_t{2}}].words = {};
   machine.file_end_is_end = true;
-  CHECK(Run().ends_with(
-      "END\nSET R1 1\nSET R2 1\nSET R3 2\nSET R4 10\nSET R5 800\nSET R6 5\nSET R7 2\nSET R8 1\nSET R9 0\nSET R10 3\n"));
+  CHECK(
+      Run().ends_with("END\nSET R1 1\nSET R2 1\nSET R3 2\nSET R4 10\nSET R5 800\nSET R6 5\nSET R7 2\nSET R8 1\nSET R9 "
+                      "0\nSET R10 3\nSET R12 5\n"));
+}
+
+TEST_CASE_FIXTURE(RunFixture, "the tool in the spindle and the one that stands ready") {
+  ir::ProgramBuilder program(module, "MAIN");
+  ir::SystemId in = ir::AddSystem(module, "$P_TOOLNO", ir::SystemKind::kActiveTool);
+  ir::SystemId called = ir::AddSystem(module, "$P_TOOLP", ir::SystemKind::kProgrammedTool);
+  Line(program, "T5 M6");
+  Line(program, "T6");
+  program.Block().Assign(R(1), e.System(in)).Assign(R(2), e.System(called)).Finish();
+  Line(program, "M6");
+  program.Block().Assign(R(3), e.System(in)).Finish();
+  Line(program, "M30");
+  program.Finish();
+  options.report_variables = true;
+  CHECK(Run().ends_with("END\nSET R1 5\nSET R2 6\nSET R3 6\n"));
 }
 
 TEST_CASE_FIXTURE(RunFixture, "coverage: blocks, branches, cells read first, quotients") {

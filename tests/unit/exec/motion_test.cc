@@ -148,6 +148,13 @@ TEST_CASE_FIXTURE(RunFixture, "threads and taps") {
         "THREAD X20 Z-40 pitch 2 change -0.1\nTAP X20 Z-50 pitch -1.25\nRAPID X20 Z5\n");
   RunFixture lead;
   CHECK(lead.Trace({"G0 Z5", "G33 Z-10"}) == "RAPID Z5\nALARM geometry thread without a lead\n");
+  // On a taper the lead is that of the longer way; under the other letter it would mean something else.
+  RunFixture taper;
+  CHECK(taper.Trace({"G0 X0 Z0", "G33 X2 Z-10 K1.5"}) == "RAPID X0 Z0\nTHREAD X2 Z-10 pitch 1.5\n");
+  RunFixture wrong;
+  wrong.Trace({"G0 X0 Z0", "G33 X20 Z-10 K1.5"});
+  CHECK(wrong.result.outcome == Outcome::kRefused);
+  CHECK(wrong.Finding() == "this cannot be run: a lead under the letter of the axis with the shorter way");
 }
 
 TEST_CASE_FIXTURE(RunFixture, "the lead of a thread is F on some controls, and the centre word its change") {

@@ -245,6 +245,44 @@ TEST_CASE("tools, work offsets and M functions go through the maps") {
   CHECK_FALSE(Agree(a, b, options));
 }
 
+TEST_CASE("the offset in force belongs to the tool that is in, not to the one that stands ready") {
+  CompareOptions options;
+  options.maps.tools_mapped = true;
+  options.maps.separate_registers = true;
+  for (const std::uint32_t tool : {1U, 2U}) {
+    ToolPair pair;
+    pair.source_tool = pair.target_tool = pair.target_offset = pair.target_radius = tool;
+    pair.source_edge = 1;
+    options.maps.tools.push_back(pair);
+  }
+  const auto program = [](bool source, std::uint32_t length) {
+    Trace trace;
+    const auto tool = [&](std::uint32_t number) {
+      Event event;
+      event.kind = EventKind::kTool;
+      event.number = number;
+      event.tool_waits = true;
+      trace.Put(event);
+    };
+    tool(1);
+    Event change;
+    change.kind = EventKind::kAux;
+    change.number = 6;
+    change.tool_change = true;
+    trace.Put(change);
+    Event offset;
+    offset.kind = EventKind::kOffset;
+    offset.offset = source ? exec::OffsetKind::kEdge : exec::OffsetKind::kLength;
+    offset.number = source ? 1 : length;
+    trace.Put(offset);
+    tool(2);  // stands ready while tool 1 cuts
+    trace.Rapid(1, 1).Line(1, 0, 1).End();
+    return trace;
+  };
+  CHECK(Agree(program(true, 0), program(false, 1), options));
+  CHECK_FALSE(Agree(program(true, 0), program(false, 2), options));
+}
+
 TEST_CASE("messages count unless the report lists them as lost") {
   CompareOptions options;
   Trace a, b;

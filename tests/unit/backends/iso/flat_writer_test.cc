@@ -217,8 +217,10 @@ TEST_CASE("tools and edges of a mill") {
   Bench bench;
   Event tool = bench.Make(EventKind::kTool);
   tool.number = 3;
+  tool.tool_waits = true;
   Event change = bench.Make(EventKind::kAux);
   change.number = 6;
+  change.tool_change = true;
   Event edge = bench.Make(EventKind::kOffset);
   edge.offset = exec::OffsetKind::kEdge;
   edge.number = 1;
@@ -240,12 +242,44 @@ TEST_CASE("tools and edges of a mill") {
   }
   SUBCASE("an edge without a tool is refused") {
     for (const Event& event : {edge, comp}) bench.Send(event);
+    bench.Finish();
     REQUIRE(bench.sink.ErrorCount() == 2);
     CHECK(bench.sink.All()[0].code == diag::Code::kOffsetWithoutTool);
     CHECK(bench.sink.All()[1].code == diag::Code::kOffsetWithoutTool);
   }
+  SUBCASE("the edge is one of the tool that is in, not of the one that stands ready") {
+    Event next = tool;
+    next.number = 4;
+    for (const Event& event : {tool, change, edge, next, comp, edge, change, edge}) bench.Send(event);
+    CHECK(bench.Finish() == std::string(kMillHeader) + "T3\nM6\nG43 H3\nT4\nG43 H3\nG41 D3\nM6\nG43 H4\nD4\nM30\n");
+  }
+  SUBCASE("compensation takes the edge of its block") {
+    Event off = bench.Make(EventKind::kOffset);
+    off.offset = exec::OffsetKind::kNone;
+    for (const Event& event : {tool, change, off, comp, edge}) bench.Send(event);
+    bench.Send(bench.Move(EventKind::kRapid, 1, 1, 1));
+    CHECK(bench.Finish() == std::string(kMillHeader) + "T3\nM6\nG49\nG43 H3\nG41 D3\nG0 X1. Y1. Z1.\nM30\n");
+    CHECK(bench.sink.ErrorCount() == 0);
+  }
+  SUBCASE("an edge in front of the first change matters only when something moves with it") {
+    for (const Event& event : {tool, edge, change, edge}) bench.Send(event);
+    bench.Send(bench.Move(EventKind::kRapid, 1, 1, 1));
+    CHECK(bench.Finish() == std::string(kMillHeader) + "T3\nM6\nG43 H3\nG0 X1. Y1. Z1.\nM30\n");
+    CHECK(bench.sink.ErrorCount() == 0);
+  }
+  SUBCASE("an edge in front of the first change that is moved with is refused") {
+    for (const Event& event : {tool, edge}) bench.Send(event);
+    bench.Send(bench.Move(EventKind::kRapid, 1, 1, 1));
+    REQUIRE(bench.sink.ErrorCount() == 1);
+    CHECK(bench.sink.All()[0].code == diag::Code::kOffsetWithoutTool);
+  }
+  SUBCASE("an edge without a tool is refused at the end, if not before") {
+    bench.Send(edge);
+    bench.Finish();
+    CHECK(bench.sink.ErrorCount() == 1);
+  }
   SUBCASE("a control that changes at T gets its M6") {
-    bench.options.tool_changes_at_t = true;
+    tool.tool_waits = false;
     bench.Send(tool);
     CHECK(bench.Finish() == std::string(kMillHeader) + "T3\nM6\nM30\n");
   }
@@ -273,6 +307,100 @@ TEST_CASE("a lathe joins tool and offset") {
   bench.Send(tool);
   bench.Send(bench.Move(EventKind::kRapid, 1, 0, 1));
   CHECK(bench.Finish() == "G18 G21 G90 G95 G40\nT0313\nT0300\nT0300\nG0 X2. Z1.\nM30\n");
+}
+
+TEST_CASE("a turret waits for the change word of the source") {
+  Bench bench(true);
+  dialects::Config config;
+  config.mcodes.push_back({"M6", "drop"});
+  bench.options.config = &config;
+  Event tool = bench.Make(EventKind::kTool);
+  tool.number = 3;
+  tool.tool_waits = true;
+  Event change = bench.Make(EventKind::kAux);
+  change.number = 6;
+  change.tool_change = true;
+  Event edge = bench.Make(EventKind::kOffset);
+  edge.offset = exec::OffsetKind::kEdge;
+  edge.number = 1;
+  bench.Send(tool);
+  bench.Send(bench.Move(EventKind::kRapid, 1, 0, 1));
+  bench.Send(change);
+  bench.Send(edge);
+  CHECK(bench.Finish() == "G18 G21 G90 G95 G40\nG0 X2. Z1.\n(M6 LEFT OUT)\nT0303\nM30\n");
+}
+
+TEST_CASE("the offset that the source starts in stands in front of the first motion") {
+  Bench bench;
+  SUBCASE("once, when none was selected") {
+    bench.options.start_offset = {true, 54, 0};
+    bench.Send(bench.Move(EventKind::kRapid, 1, 1, 1));
+    bench.Send(bench.Move(EventKind::kRapid, 2, 1, 1));
+    CHECK(bench.Finish() == std::string(kMillHeader) + "G54\nG0 X1. Y1. Z1.\nX2.\nM30\n");
+  }
+  SUBCASE("not when the program selects one") {
+    bench.options.start_offset = {true, 54, 0};
+    Event offset = bench.Make(EventKind::kWorkOffset);
+    offset.number = 55;
+    bench.Send(offset);
+    bench.Send(bench.Move(EventKind::kRapid, 1, 1, 1));
+    CHECK(bench.Finish() == std::string(kMillHeader) + "G55\nG0 X1. Y1. Z1.\nM30\n");
+  }
+  SUBCASE("none and unknown write nothing") {
+    bench.options.start_offset = {true, 0, 0};
+    SUBCASE("unknown") { bench.options.start_offset = {}; }
+    SUBCASE("none") {}
+    bench.Send(bench.Move(EventKind::kRapid, 1, 1, 1));
+    CHECK(bench.Finish() == std::string(kMillHeader) + "G0 X1. Y1. Z1.\nM30\n");
+  }
+  SUBCASE("through the map") {
+    dialects::Config config;
+    config.offsets.push_back({"G54", "G57", {}});
+    bench.options.config = &config;
+    bench.options.start_offset = {true, 54, 0};
+    bench.Send(bench.Move(EventKind::kRapid, 1, 1, 1));
+    CHECK(bench.Finish() == std::string(kMillHeader) + "G57\nG0 X1. Y1. Z1.\nM30\n");
+  }
+}
+
+TEST_CASE("extended work offsets have the form of the target, or none") {
+  Bench bench;
+  Event offset = bench.Make(EventKind::kWorkOffset);
+  offset.number = 54;
+  offset.extension = 3;
+  SUBCASE("G54.1 P") {
+    bench.profile.words.work_offset_extended.Set("G54.1 P{number}");
+    bench.Send(offset);
+    CHECK(bench.Finish() == std::string(kMillHeader) + "G54.1 P3\nM30\n");
+    CHECK(bench.Writer().Record().offsets.front().target == "G54.1 P3");
+  }
+  SUBCASE("another form") {
+    bench.profile.words.work_offset_extended.Set("G154 P{number}");
+    bench.Send(offset);
+    CHECK(bench.Finish() == std::string(kMillHeader) + "G154 P3\nM30\n");
+  }
+  SUBCASE("none") {
+    bench.profile.words.work_offset_extended.Set("");
+    bench.Send(offset);
+    REQUIRE(bench.sink.ErrorCount() == 1);
+    CHECK(bench.sink.All()[0].message == "work offset G54.1 P3 is not mapped");
+  }
+}
+
+TEST_CASE("rapids of several axes are listed, each source block once") {
+  Bench bench;
+  bench.options.list_rapids = true;
+  bench.Send(bench.Move(EventKind::kRapid, 1, 1, 1));
+  bench.Send(bench.Move(EventKind::kRapid, 2, 1, 1));
+  bench.Send(bench.Move(EventKind::kLine, 3, 2, 1, 100));
+  bench.Send(bench.Move(EventKind::kRapid, 4, 3, 1));
+  bench.Finish();
+  const auto& rapids = bench.Writer().Record().rapids;
+  REQUIRE(rapids.size() == 2);
+  CHECK(rapids[0].axes == 0b111);
+  CHECK(rapids[0].line == 2);
+  CHECK(rapids[1].axes == 0b011);
+  CHECK(rapids[1].line == 5);
 }
 
 TEST_CASE("work offsets beyond G59 and none need a mapping; M functions of the builder too") {

@@ -31,7 +31,7 @@ TEST_CASE("variables are found by number, also those that are reached by arithme
   CHECK(FindSystemVariable(mill, 3000)->control == Control::kAlarm);
   CHECK_FALSE(FindSystemVariable(mill, 3000)->readable);
   CHECK(FindSystemVariable(mill, 3006)->control == Control::kMessageStop);
-  CHECK(FindSystemVariable(mill, 4120)->kind == ir::SystemKind::kActiveTool);
+  CHECK(FindSystemVariable(mill, 4120)->kind == ir::SystemKind::kProgrammedTool);
   CHECK_FALSE(FindSystemVariable(mill, 5001)->writable);
   CHECK(FindSystemVariable(mill, 5221)->writable);
   CHECK(FindSystemVariable(mill, 1050) == nullptr);

@@ -5,6 +5,8 @@
 #include <set>
 
 #include "app/source_hash.h"
+#include "dialects/machine.h"
+#include "ir/analysis/tool_change.h"
 
 namespace ncport::app {
 namespace {
@@ -86,6 +88,11 @@ Report FlattenReport(const Context& context, const ProgramSet& set, const dialec
   }
   report.rapid_paths = fmt::format("{} -> {}", RapidWay(set.profile), RapidWay(target));
   for (const std::string& assumption : record.assumptions) report.assumptions.push_back({assumption, "", {}});
+  if (ir::analysis::WhenToolsChange(set.module, dialects::MachineFor(set.profile)) ==
+      ir::analysis::ToolChange::kAssumedAtToolWord) {
+    report.assumptions.push_back(
+        {"the T word of the source changes the tool by itself", "sinumerik-8.8", {"T1", "G4 F1"}});
+  }
   report.comparison.emplace_back(
       "the flat program holds one run of the source with the values below; other values need another run");
   if (!options.call.empty()) report.comparison.push_back("call " + options.call);

@@ -288,6 +288,7 @@ void FlatWriter::MillOffset(const exec::Event& event) {
       return WriteWords(fmt::format("G43 H{}", event.number));
     case exec::OffsetKind::kNone:
       radius_register_.reset();
+      early_edge_.reset();
       return WriteWords(target_.words.length_offset_off.Or("G49"));
     case exec::OffsetKind::kRadius:
       break;

@@ -137,6 +137,10 @@ void WriteEnvelopes(Page& page, const Report& report) {
         page.Row({axis.name, Number(axis.low), Number(axis.high), LimitText(axis)});
       page.End();
     }
+    if (!envelope.first_approach && !envelope.speed && !envelope.surface_speed && !envelope.feed &&
+        !envelope.feed_per_revolution) {
+      continue;
+    }
     page.Begin({"what", "value"});
     if (envelope.first_approach) page.Row({"first approach", PointText(envelope.first_approach)});
     if (envelope.last_approach) page.Row({"last approach", PointText(envelope.last_approach)});

@@ -173,6 +173,13 @@ bool FlatWriter::Report(const ToolMap::Answer& answer) {
     if (std::ranges::find(assumed_, answer.source) != assumed_.end()) return true;
     assumed_.push_back(answer.source);
   }
+  if (*answer.problem == diag::Code::kUnmappedTool) {
+    // The line for the edge that the finding at the tool word shows maps both.
+    for (const std::string& tool : unmapped_) {
+      if (answer.source.starts_with(tool + " D")) return false;
+    }
+    unmapped_.push_back(answer.source);
+  }
   if (diag::Diagnostic* diagnostic = Refuse(*answer.problem, answer.source, answer.assumed))
     diagnostic->help = answer.help;
   if (!answer.Failed()) {

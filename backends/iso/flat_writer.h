@@ -186,7 +186,8 @@ class FlatWriter final : public exec::EventSink {
   ir::BlockId pending_block_;
   bool speed_is_rpm_ = false;  // lathe: the text says that S is a speed, not a surface speed
   std::optional<std::int64_t> radius_register_;
-  std::vector<std::string> assumed_;  // tools with edge whose registers were assumed: one warning each
+  std::vector<std::string> assumed_;   // tools with edge whose registers were assumed: one warning each
+  std::vector<std::string> unmapped_;  // tools without words: one error each
   // Spindle words of one source block share a flat block.
   std::uint8_t open_words_ = 0;  // bits of the words in the open line; 0 = none open
 };

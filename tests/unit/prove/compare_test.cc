@@ -255,8 +255,7 @@ TEST_CASE("the offset in force belongs to the tool that is in, not to the one th
     pair.source_edge = 1;
     options.maps.tools.push_back(pair);
   }
-  const auto program = [](bool source, std::uint32_t length) {
-    Trace trace;
+  const auto program = [](Trace& trace, bool source, std::uint32_t length) {
     const auto tool = [&](std::uint32_t number) {
       Event event;
       event.kind = EventKind::kTool;
@@ -277,10 +276,13 @@ TEST_CASE("the offset in force belongs to the tool that is in, not to the one th
     trace.Put(offset);
     tool(2);  // stands ready while tool 1 cuts
     trace.Rapid(1, 1).Line(1, 0, 1).End();
-    return trace;
   };
-  CHECK(Agree(program(true, 0), program(false, 1), options));
-  CHECK_FALSE(Agree(program(true, 0), program(false, 2), options));
+  Trace edges, right, wrong;
+  program(edges, true, 0);
+  program(right, false, 1);
+  program(wrong, false, 2);
+  CHECK(Agree(edges, right, options));
+  CHECK_FALSE(Agree(edges, wrong, options));
 }
 
 TEST_CASE("messages count unless the report lists them as lost") {

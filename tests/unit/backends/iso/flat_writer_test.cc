@@ -355,7 +355,9 @@ TEST_CASE("the offset that the source starts in stands in front of the first mot
   }
   SUBCASE("through the map") {
     dialects::Config config;
-    config.offsets.push_back({"G54", "G57", {}});
+    dialects::WordMapping& offset = config.offsets.emplace_back();
+    offset.source = "G54";
+    offset.target = "G57";
     bench.options.config = &config;
     bench.options.start_offset = {true, 54, 0};
     bench.Send(bench.Move(EventKind::kRapid, 1, 1, 1));

@@ -320,7 +320,7 @@ int RunDump(const DumpArguments& arguments) {
 }
 
 struct TranslateArguments : Common, Running {
-  std::string to, output = "-";
+  std::string to, output = "-", unsupported = "error", source_map;
   bool verify = false;
   std::uint32_t runs = 200;
   std::uint64_t seed = 1;
@@ -335,18 +335,27 @@ int RunTranslate(const TranslateArguments& arguments) {
   options.verify = arguments.verify;
   options.runs = arguments.runs;
   options.seed = arguments.seed;
+  options.stop_at_unsupported = arguments.unsupported == "stop";
+  std::vector<std::unique_ptr<OutputFile>> files;
+  if (!arguments.source_map.empty()) {
+    OutputFile& map = *files.emplace_back(std::make_unique<OutputFile>(arguments.source_map));
+    if (!map.Open().Ok()) {
+      Say(map.Error());
+      return kUsage;
+    }
+    options.source_map = &map.Text();
+  }
   TranslateResult result;
   const Status ok = Translate(session.context, session.TakeInputs(), options, result);
   const int code = session.End(ok);
   if (!result.summary.empty() && !arguments.quiet) fmt::print(stderr, "{}", result.summary);
-  if (code != kDone) return code;
+  if (result.files.empty() || code == kUsage) return code == kDone ? kFindings : code;
   const bool folder = IsFolder(arguments.output);
   const bool named = result.files.size() > 1 || !result.files.front().name.empty();
   if (named && !folder) {
     Say("on this machine the file name is the program: -o must name a folder");
     return kUsage;
   }
-  std::vector<std::unique_ptr<OutputFile>> files;
   for (const TranslatedFile& made : result.files) {
     std::string path = arguments.output;
     if (folder) path += "/" + (made.name.empty() ? std::string("output.nc") : made.name);
@@ -433,7 +442,17 @@ int Main(int argc, char** argv) {
                     "run both programs over parameter sets and compare what the machine does");
   command->add_option("--runs", translate.runs, "parameter sets to compare");
   command->add_option("--seed", translate.seed, "seed of the parameter sets");
-  command->add_option("-o", translate.output, "file or folder to write")->type_name("FILE|DIR");
+  command
+      ->add_option("--unsupported", translate.unsupported,
+                   "a block that the target cannot express: error, or stop = an alarm in its place")
+      ->check(CLI::IsMember({"error", "stop"}));
+  command
+      ->add_option("--source-map", translate.source_map, "file for the places that the blocks come from, as JSON lines")
+      ->type_name("FILE");
+  command
+      ->add_option("-o", translate.output,
+                   "file to write, or folder where the name of a file is the name of its program")
+      ->type_name("FILE|DIR");
   command->callback([&] { code = RunTranslate(translate); });
 
   DiffArguments diff;

@@ -75,10 +75,12 @@ struct FlattenOptions : RunSettings {
 };
 
 struct TranslateOptions : RunSettings {
-  std::string to;            // profile of the output; empty: from `config`
-  bool verify = false;       // run both programs and compare; a difference is an error
-  std::uint32_t runs = 200;  // parameter sets that count
-  std::uint64_t seed = 1;    // of the sets
+  std::string to;                    // profile of the output; empty: from `config`
+  bool verify = false;               // run both programs and compare; a difference is an error
+  std::uint32_t runs = 200;          // parameter sets that count
+  std::uint64_t seed = 1;            // of the sets
+  bool stop_at_unsupported = false;  // refused blocks become alarms; the result has files and the call fails
+  OutputSink* source_map = nullptr;  // JSON lines {version, out, file, line, calls, turns}
 };
 
 /// A file of the output.
@@ -87,8 +89,8 @@ struct TranslatedFile {
   std::string text;
 };
 struct TranslateResult {
-  std::vector<TranslatedFile> files;
-  std::string summary;  // of the comparison, for reading; empty without `verify`
+  std::vector<TranslatedFile> files;  // also after a failure with `stop_at_unsupported`: to be written all the same
+  std::string summary;                // of the comparison, for reading; empty without `verify`
 };
 
 /// `call`, `set` and `start` hold for both programs; `from` where a side has no profile of its own.

@@ -1,6 +1,7 @@
 #include "backends/translate.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "app/comparison.h"
 #include "app/ncport.h"
 #include "app/pipeline.h"
+#include "app/stops.h"
 #include "app/translation_header.h"
 #include "dialects/machine.h"
 
@@ -42,6 +44,26 @@ void ReportNotCompared(Context& context, const app::ProgramSet& set, const prove
   finding.help = "declare what the arguments may be in [ranges] of ncport.toml, or give more sets with --runs";
 }
 
+/// A line for each block that comes from the source: `out` is the line in `output`, the file of the set. Loops and
+/// calls are kept, so there are no call paths and turns; a program of another call path (`via`) names the calls.
+void AppendSourceMap(const Context& context, const ir::Module& module, const backends::OutputFile& file,
+                     OutputSink& sink) {
+  for (std::size_t i = 0; i < file.line_blocks.size(); ++i) {
+    const ir::BlockId block = file.line_blocks[i];
+    if (!block.Valid() || (module.blocks[block].flags & ir::Block::kAdded) != 0) continue;
+    const SourceRange at = module.RangeOf(module.blocks[block]);
+    if (!at.file.Valid() || at.line == 0) continue;
+    nlohmann::ordered_json line{{"version", 1},
+                                {"out", i + 1},
+                                {"output", file.name},
+                                {"file", context.files.Name(at.file)},
+                                {"line", at.line},
+                                {"calls", nlohmann::ordered_json::array()},
+                                {"turns", nlohmann::ordered_json::array()}};
+    (void)sink.Write(line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+  }
+}
+
 }  // namespace
 
 Status Translate(Context& context, std::vector<Input> inputs, const TranslateOptions& options,
@@ -59,8 +81,13 @@ Status Translate(Context& context, std::vector<Input> inputs, const TranslateOpt
   const ir::Machine machine = dialects::MachineFor(set.profile);
   const dialects::Config config = options.config != nullptr ? options.config->For(target_name) : dialects::Config{};
   backends::Translation translation;
-  const backends::TranslateInput input{&set.module, &set.profile, &machine, &target, &config};
-  if (!backends::Raise(input, translation, context.findings)) return Failure{};
+  const ir::Module source = set.module;
+  const backends::TranslateInput input{&source, &set.profile, &machine, &target, &config};
+  const bool raised = options.stop_at_unsupported ? app::RaiseWithStops(context, input, translation, set.module)
+                                                  : backends::Raise(input, translation, context.findings);
+  if (!raised) return Failure{};
+  const bool stopped = context.findings.HasErrors();  // by --unsupported=stop: written all the same
+  const std::size_t errors = context.findings.ErrorCount();
   std::vector<backends::OutputFile> files = backends::Print(target, translation, {});
 
   std::optional<prove::Verification> verification;
@@ -73,13 +100,18 @@ Status Translate(Context& context, std::vector<Input> inputs, const TranslateOpt
     if (verification->difference) ReportDifference(context, set, *verification, varied);
     if (!verification->difference && !verification->compared) ReportNotCompared(context, set, *verification);
     result.summary = app::SummaryOf(*verification, varied);
+    if (translation.stopped_blocks != 0)
+      result.summary += fmt::format("  NOT COMPLETE: compared as far as the {} blocks that became alarms\n",
+                                    translation.stopped_blocks);
   }
-  if (context.findings.HasErrors()) return Failure{};
+  if (context.findings.ErrorCount() != errors) return Failure{};
   const std::vector<backends::ProgramHeader> headers =
       app::HeadersOf(context, set, target, translation, verification ? &*verification : nullptr, varied);
   for (backends::OutputFile& file : backends::Print(target, translation, headers)) {
+    if (options.source_map != nullptr) AppendSourceMap(context, translation.module, file, *options.source_map);
     result.files.push_back({std::move(file.name), std::move(file.text)});
   }
+  if (stopped) return Failure{};
   return {};
 }
 

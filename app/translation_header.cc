@@ -87,6 +87,9 @@ std::vector<backends::ProgramHeader> HeadersOf(const Context& context, const Pro
       for (const ir::transform::CellMapping& cell : translation.cells) {
         if (cell.common) lines.push_back(fmt::format("{} = {}", TargetOf(cell), cell.source));
       }
+      if (translation.stopped_blocks != 0)
+        lines.push_back(
+            fmt::format("NOT COMPLETE: {} BLOCKS ARE ALARMS, SEE -NOT TRANSLATED-", translation.stopped_blocks));
       if (verification == nullptr) {
         lines.emplace_back("NOT COMPARED: --verify WAS NOT ASKED FOR");
       } else {

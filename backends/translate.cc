@@ -1,11 +1,14 @@
 #include "backends/translate.h"
 
+#include <fmt/format.h>
+
 #include "backends/fanuc/argument_letter.h"
 #include "backends/fanuc/raise.h"
 #include "backends/fanuc/write.h"
 #include "backends/sinumerik/raise.h"
 #include "backends/sinumerik/write.h"
 #include "base/result.h"
+#include "ir/builder.h"
 
 namespace ncport::backends {
 
@@ -30,6 +33,28 @@ dialects::Profile ForReading(const dialects::Profile& to) {
   // Angles are brought between -180 and 180 behind each function that yields them (fanuc-14, rows 32 and 33).
   if (!profile.fanuc.atan_range.Known()) profile.fanuc.atan_range.Set(dialects::FanucSettings::AtanRange::kPositive);
   return profile;
+}
+
+std::vector<ir::Word> StopWords(const dialects::Profile& to, ir::Module& module) {
+  ir::Word word;
+  if (to.language == dialects::Language::kFanuc) {
+    // As text: what follows keeps the modes of the source, as if the block had done nothing.
+    const std::uint32_t number = to.fanuc.alarms.Known() ? to.fanuc.alarms->last : 999;
+    word.op = ir::WordOp::kInert;
+    word.phase = ir::DefaultPhaseOf(word.op);
+    word.spelling = ir::AddSpelling(module, fmt::format("#3000={}(NOT*TRANSLATED)", number), "");
+    return {word};
+  }
+  ir::ExprBuilder make(module);
+  word.op = ir::WordOp::kAlarm;
+  word.phase = ir::DefaultPhaseOf(word.op);
+  word.index = static_cast<std::uint8_t>(ir::AlarmKind::kStops);
+  word.value = make.Literal(kStopAlarm, ir::Type::kInt);
+  word.extra = Id<void>::kNone;
+  ir::Word stop;
+  stop.op = ir::WordOp::kStop;
+  stop.phase = ir::DefaultPhaseOf(stop.op);
+  return {word, stop};
 }
 
 std::vector<OutputFile> Print(const dialects::Profile& to, const Translation& translation,

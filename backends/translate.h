@@ -35,6 +35,11 @@ struct OutputFile {
   std::vector<ir::BlockId> line_blocks;    // block of Translation::module a line shows; by line - 1, may be invalid
 };
 
+/// Number of the alarm that stands for a block that was not translated, as the source would say it.
+inline constexpr std::uint32_t kStopAlarm = 900;
+/// The words of such a block in the target: an alarm that the operator cannot run past.
+std::vector<ir::Word> StopWords(const dialects::Profile& to, ir::Module& module);
+
 /// Rewrites the module for the target. Fails after findings: each place that has no form is one.
 bool Raise(const TranslateInput& input, Translation& translation, diag::Sink& sink);
 /// The profile under which the output is read back. Settings that it leaves open and that the output serves whichever

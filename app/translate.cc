@@ -1,7 +1,6 @@
 #include "backends/translate.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <optional>
@@ -11,6 +10,7 @@
 #include "app/comparison.h"
 #include "app/ncport.h"
 #include "app/pipeline.h"
+#include "app/source_map_json.h"
 #include "app/stops.h"
 #include "app/translation_header.h"
 #include "dialects/machine.h"
@@ -42,26 +42,6 @@ void ReportNotCompared(Context& context, const app::ProgramSet& set, const prove
                              branch.taken ? "this condition never held" : "this condition always held"});
   }
   finding.help = "declare what the arguments may be in [ranges] of ncport.toml, or give more sets with --runs";
-}
-
-/// A line for each block that comes from the source: `out` is the line in `output`, the file of the set. Loops and
-/// calls are kept, so there are no call paths and turns; a program of another call path (`via`) names the calls.
-void AppendSourceMap(const Context& context, const ir::Module& module, const backends::OutputFile& file,
-                     OutputSink& sink) {
-  for (std::size_t i = 0; i < file.line_blocks.size(); ++i) {
-    const ir::BlockId block = file.line_blocks[i];
-    if (!block.Valid() || (module.blocks[block].flags & ir::Block::kAdded) != 0) continue;
-    const SourceRange at = module.RangeOf(module.blocks[block]);
-    if (!at.file.Valid() || at.line == 0) continue;
-    nlohmann::ordered_json line{{"version", 1},
-                                {"out", i + 1},
-                                {"output", file.name},
-                                {"file", context.files.Name(at.file)},
-                                {"line", at.line},
-                                {"calls", nlohmann::ordered_json::array()},
-                                {"turns", nlohmann::ordered_json::array()}};
-    (void)sink.Write(line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
-  }
 }
 
 }  // namespace
@@ -108,7 +88,7 @@ Status Translate(Context& context, std::vector<Input> inputs, const TranslateOpt
   const std::vector<backends::ProgramHeader> headers =
       app::HeadersOf(context, set, target, translation, verification ? &*verification : nullptr, varied);
   for (backends::OutputFile& file : backends::Print(target, translation, headers)) {
-    if (options.source_map != nullptr) AppendSourceMap(context, translation.module, file, *options.source_map);
+    if (options.source_map != nullptr) app::AppendSourceMap(context, translation.module, file, *options.source_map);
     result.files.push_back({std::move(file.name), std::move(file.text)});
   }
   if (stopped) return Failure{};

@@ -14,6 +14,8 @@ Event& Emitter::Begin(EventKind kind) {
   event_.extension = 0;
   event_.value = 0;
   event_.per_revolution = false;
+  event_.tool_waits = false;
+  event_.tool_change = false;
   event_.text = {};
   event_.code = {};
   event_.block = session_.block;

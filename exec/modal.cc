@@ -41,7 +41,8 @@ void Kinematics::Set(const ir::Word& word, double extension, BlockWork& work) {
         work.one_shot = motion;
       } else {
         modal.motion = motion;
-        channel_.cycle = {};  // a word of motion ends a cycle and what is stored for it (fanuc-8.7)
+        // A word of motion ends a cycle and what is stored for it (fanuc-8.7). Without a cycle nothing is stored.
+        if (channel_.cycle.cycle != ir::Cycle::kNone) channel_.cycle = {};
       }
       work.has |= BlockWork::kMotionWord;
       break;

@@ -3,22 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
-#include <set>
 #include <string>
 
+#include "app/bind_inputs.h"
 #include "dialects/machine.h"
-#include "exec/link.h"
 #include "frontend/reader.h"
 
 namespace ncport::app {
 namespace {
-
-bool SameName(std::string_view a, std::string_view b) {
-  return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [](char x, char y) {
-           return std::toupper(static_cast<unsigned char>(x)) == std::toupper(static_cast<unsigned char>(y));
-         });
-}
 
 /// The output as a module of the target's language; added lines are marked.
 bool ReadBack(const std::vector<backends::OutputFile>& files, const dialects::Profile& target, ir::Module& module,
@@ -51,190 +43,6 @@ bool ReadBack(const std::vector<backends::OutputFile>& files, const dialects::Pr
       block.flags = static_cast<std::uint8_t>(block.flags | ir::Block::kAdded);
   }
   return true;
-}
-
-ir::ProgramId FindByName(const ir::Module& module, std::string_view name) {
-  for (const ir::ProgramId id : module.programs.Ids()) {
-    const std::string_view known = module.View(module.programs[id].name);
-    if (SameName(known, name) ||
-        (known.size() > 1 && (known[0] == 'O' || known[0] == 'o') && SameName(known.substr(1), name)))
-      return id;
-  }
-  return {};
-}
-
-class Binder {
- public:
-  Binder(const ProgramSet& source, const backends::Translation& translation, const ir::Module& target,
-         const dialects::Config* config)
-      : source_(source.module), translation_(translation), target_(target), config_(config) {}
-
-  std::vector<prove::BoundInput> Arguments(ir::ProgramId entry);
-  void Cells(ir::ProgramId entry, const ir::Machine& machine, std::vector<prove::BoundInput>& inputs);
-  /// Ends of ranges that are other inputs. A name that is none of them is a finding.
-  bool Relate(std::vector<prove::BoundInput>& inputs, diag::Sink& sink) const;
-
- private:
-  void ApplyRange(prove::Input& input) const {
-    if (config_ == nullptr) return;
-    for (const dialects::ValueRange& range : config_->ranges) {
-      if (!SameName(range.name, input.name)) continue;
-      if (range.least_of.empty()) input.low = range.least;
-      if (range.most_of.empty()) input.high = range.most;
-    }
-  }
-
-  const ir::Module& source_;
-  const backends::Translation& translation_;
-  const ir::Module& target_;
-  const dialects::Config* config_;
-};
-
-std::vector<prove::BoundInput> Binder::Arguments(ir::ProgramId entry) {
-  std::vector<prove::BoundInput> inputs;
-  std::set<std::uint32_t> callees;
-  const bool is_call = source_.programs[entry].kind == ir::ProgramKind::kSub;
-  if (is_call) callees.insert(entry.value);
-  std::vector<ir::CallId> calls;
-  for (const ir::BlockId block : source_.programs[entry].blocks) {
-    for (const ir::WordId id : source_.blocks[block].words) {
-      const ir::Word& word = source_.words[id];
-      if (word.op != ir::WordOp::kCall || !word.Extra<ir::CallId>().Valid()) continue;
-      const ir::Call& call = source_.calls[word.Extra<ir::CallId>()];
-      if (!call.program.Valid() || is_call) continue;
-      callees.insert(call.program.value);
-      calls.push_back(word.Extra<ir::CallId>());
-    }
-  }
-  for (const std::uint32_t callee_value : callees) {
-    const ir::ProgramId callee{callee_value};
-    const ir::Program& program = source_.programs[callee];
-    for (std::uint32_t i = 0; i < program.parameters.count; ++i) {
-      const ir::Variable& variable = source_.variables[program.parameters[i]];
-      if (variable.by_reference || variable.type == ir::Type::kString) continue;
-      prove::BoundInput bound;
-      bound.input.name = fmt::format("{}.{}", source_.View(program.name), source_.View(variable.name));
-      bound.input.integer = variable.type != ir::Type::kReal;
-      bound.input.boolean = variable.type == ir::Type::kBool;
-      ApplyRange(bound.input);
-      for (const ir::CallId id : calls) {
-        if (source_.calls[id].program != callee) continue;
-        for (const ir::ArgId arg : source_.calls[id].args) {
-          const ir::Arg& given = source_.args[arg];
-          if (given.position != i || !given.value.Valid()) continue;
-          ir::ExprId value = given.value;
-          double sign = 1;
-          while (true) {
-            const ir::Expr& expr = source_.exprs[value];
-            if (expr.op == ir::ExprOp::kNegate) sign = -sign;
-            if (expr.op != ir::ExprOp::kGroup && expr.op != ir::ExprOp::kNegate && expr.op != ir::ExprOp::kPlus &&
-                expr.op != ir::ExprOp::kConvert)
-              break;
-            value = ir::ExprId{expr.a};
-          }
-          if (source_.exprs[value].op == ir::ExprOp::kLiteral)
-            bound.input.seen.push_back(sign * source_.exprs[value].number);
-        }
-      }
-      prove::InputPlace place;
-      place.callee = callee;
-      place.position = static_cast<std::uint16_t>(i);
-      bound.source.push_back(place);
-      if (translation_.keeps_files) {
-        prove::InputPlace same = place;
-        same.callee = FindByName(target_, source_.View(program.name));
-        if (same.callee.Valid()) bound.target.push_back(same);
-        inputs.push_back(std::move(bound));
-        continue;
-      }
-      // Every program of the target that got a letter for this parameter: the parts of a split cycle have one each.
-      for (const ir::transform::CellMapping& mapping : translation_.cells) {
-        if (mapping.letter == 0 || !SameName(mapping.source, source_.View(variable.name))) continue;
-        const auto name =
-            std::find_if(translation_.programs.begin(), translation_.programs.end(),
-                         [&](const backends::ProgramName& known) { return known.program == mapping.program; });
-        if (name == translation_.programs.end()) continue;
-        const std::string_view whole = source_.View(program.name);
-        const bool part = SameName(name->source, whole) ||
-                          (name->source.starts_with(whole) && name->source.substr(whole.size()).starts_with('_'));
-        if (!part) continue;
-        prove::InputPlace there;
-        there.callee = FindByName(target_, name->target);
-        there.letter = mapping.letter;
-        if (there.callee.Valid()) bound.target.push_back(there);
-      }
-      inputs.push_back(std::move(bound));
-    }
-  }
-  return inputs;
-}
-
-/// Cells that the source reads before anything writes them: the operator's inputs.
-void Binder::Cells(ir::ProgramId entry, const ir::Machine& machine, std::vector<prove::BoundInput>& inputs) {
-  const exec::Linked linked(source_, machine);
-  exec::RunOptions options;
-  options.entry = entry;
-  options.is_call = source_.programs[entry].kind == ir::ProgramKind::kSub;
-  options.max_blocks = 1'000'000;
-  exec::NoEnvironment environment;
-  prove::RecordedTrace trace;
-  diag::Sink quiet;
-  exec::Coverage coverage;
-  exec::Run(linked, options, environment, trace, quiet, &coverage);
-  for (const std::uint32_t packed : coverage.cells_read_before_written) {
-    const ir::SpaceId space{packed >> 24U};
-    const std::uint32_t cell = packed & 0xFFFFFFU;
-    prove::BoundInput bound;
-    bound.input.name = fmt::format("{}{}", source_.View(source_.spaces[space].name), cell);
-    ApplyRange(bound.input);
-    prove::InputPlace place;
-    place.space = space;
-    place.cell = cell;
-    bound.source.push_back(place);
-    for (const ir::transform::CellMapping& mapping : translation_.cells) {
-      if (mapping.source_space != space || cell < mapping.source_cell || cell >= mapping.source_cell + mapping.count)
-        continue;
-      const std::uint32_t home = mapping.first + cell - mapping.source_cell;
-      for (const ir::SpaceId id : target_.spaces.Ids()) {
-        const ir::Space& cells = target_.spaces[id];
-        if (home < cells.first || home > cells.last) continue;
-        prove::InputPlace there;
-        there.space = id;
-        there.cell = home;
-        bound.target.push_back(there);
-      }
-    }
-    inputs.push_back(std::move(bound));
-  }
-}
-
-bool Binder::Relate(std::vector<prove::BoundInput>& inputs, diag::Sink& sink) const {
-  if (config_ == nullptr) return true;
-  bool ok = true;
-  for (prove::BoundInput& bound : inputs) {
-    const std::string_view name = bound.input.name;
-    const std::size_t dot = name.find('.');
-    const std::string_view program = dot == std::string_view::npos ? std::string_view{} : name.substr(0, dot + 1);
-    const auto end = [&](const dialects::ValueRange& range, const std::string& of,
-                         double added) -> std::optional<prove::RelatedEnd> {
-      if (of.empty()) return std::nullopt;
-      for (std::size_t i = 0; i < inputs.size(); ++i) {
-        const std::string_view other = inputs[i].input.name;
-        if (&inputs[i] == &bound) continue;
-        if (SameName(other, of) || SameName(other, std::string(program) + of)) return prove::RelatedEnd{i, added};
-      }
-      ok = false;
-      sink.Report(diag::Code::kUnknownKey, range.at, of).help =
-          fmt::format("{} takes its range from an input that this comparison has not", name);
-      return std::nullopt;
-    };
-    for (const dialects::ValueRange& range : config_->ranges) {
-      if (!SameName(range.name, name)) continue;
-      bound.input.low_of = end(range, range.least_of, range.least);
-      bound.input.high_of = end(range, range.most_of, range.most);
-    }
-  }
-  return ok;
 }
 
 prove::Maps MapsOf(const ir::Module& source, const backends::Translation& translation, bool separate_registers) {
@@ -282,11 +90,12 @@ prove::Precision PrecisionOf(const dialects::Profile& profile, const ir::Machine
 }  // namespace
 
 prove::Verification CompareTranslation(Context& context, const ProgramSet& source, const ir::Machine& source_machine,
-                                       ir::ProgramId entry, const dialects::Profile& to,
+                                       const exec::RunOptions& run, const dialects::Profile& to,
                                        const backends::Translation& translation,
                                        const std::vector<backends::OutputFile>& files, const dialects::Config* config,
                                        const ComparisonSetup& setup, std::vector<prove::Input>& inputs) {
   const dialects::Profile target = backends::ForReading(to);
+  const ir::ProgramId entry = run.entry;
   prove::Verification result;
   ir::Module module;
   std::string problem;
@@ -304,10 +113,10 @@ prove::Verification CompareTranslation(Context& context, const ProgramSet& sourc
     result.not_compared = "the output has no program for the one that is run";
     return result;
   }
-  Binder binder(source, translation, module, config);
+  Binder binder(source, translation, module, target, config, run);
   std::vector<prove::BoundInput> bound;
-  if (setup.vary_inputs) bound = binder.Arguments(entry);
-  binder.Cells(entry, source_machine, bound);
+  if (setup.vary_inputs) bound = binder.Arguments();
+  binder.Cells(source_machine, bound);
   if (!binder.Relate(bound, context.findings)) {
     result.not_compared = "a range refers to an input that does not exist";
     return result;
@@ -318,6 +127,7 @@ prove::Verification CompareTranslation(Context& context, const ProgramSet& sourc
   for (const prove::BoundInput& input : bound) inputs.push_back(input.input);
 
   prove::VerifyOptions options;
+  options.listed_branches = binder.DecidedBranches();
   options.runs = setup.runs;
   options.seed = setup.seed;
   if (!setup.vary_inputs) options.runs = options.least_runs = 1;
@@ -341,8 +151,26 @@ prove::Verification CompareTranslation(Context& context, const ProgramSet& sourc
       options.final_values.emplace_back(mapping.source,
                                         mapping.target.empty() ? fmt::format("#{}", mapping.first) : mapping.target);
   }
-  prove::Side a{&source.module, &source_machine, entry, source.module.programs[entry].kind == ir::ProgramKind::kSub};
-  prove::Side b{&module, &target_machine, target_entry, a.is_call};
+  prove::Side a;
+  a.module = &source.module;
+  a.machine = &source_machine;
+  a.entry = entry;
+  a.is_call = source.module.programs[entry].kind == ir::ProgramKind::kSub;
+  if (run.start_position_known) {
+    a.start_axes = run.start_axes;
+    std::copy(std::begin(run.start_position), std::end(run.start_position), a.start_position);
+  } else if (a.is_call && !source.profile.IsLathe()) {
+    // A subprogram without its callers: the tool stands somewhere, and moves and cycles may start from there.
+    constexpr std::uint16_t kXYZ = 7;
+    constexpr double kAbove = 100;
+    a.start_axes = kXYZ;
+    a.start_position[2] = kAbove;
+  }
+  if (config != nullptr) a.entry_state = config->entry;
+  prove::Side b = a;
+  b.module = &module;
+  b.machine = &target_machine;
+  b.entry = target_entry;
   return prove::Verify(a, b, bound, options, context.findings);
 }
 

@@ -6,6 +6,7 @@
 
 #include "app/pipeline.h"
 #include "backends/translate.h"
+#include "exec/run.h"
 #include "prove/verify.h"
 
 namespace ncport::app {
@@ -17,9 +18,10 @@ struct ComparisonSetup {
   bool vary_inputs = true;  // false: one set: arguments as written, cells that nothing wrote 0
 };
 
-/// Findings of reading the output back are bugs of the writer and are reported as such (NC7002).
+/// `run` names the entry; arguments in it are values seen. Findings of reading the output back are bugs of the writer
+/// and are reported as such (NC7002).
 prove::Verification CompareTranslation(Context& context, const ProgramSet& source, const ir::Machine& source_machine,
-                                       ir::ProgramId entry, const dialects::Profile& target,
+                                       const exec::RunOptions& run, const dialects::Profile& target,
                                        const backends::Translation& translation,
                                        const std::vector<backends::OutputFile>& files, const dialects::Config* config,
                                        const ComparisonSetup& setup, std::vector<prove::Input>& inputs);

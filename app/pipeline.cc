@@ -129,7 +129,7 @@ Result<exec::RunOptions> RunOptionsFor(Context& context, const ProgramSet& set, 
   options.max_text_bytes = settings.max_text_bytes;
   const bool ignore_case = set.profile.names.ignore_case.Or(true);
   if (!settings.call.empty()) {
-    NCPORT_TRY(ApplyCall(settings.call, set.module, ignore_case, options, context.findings));
+    NCPORT_TRY(ApplyCall(settings.call, set.module, set.profile, options, context.findings));
   } else {
     for (const ir::ProgramId id : set.module.programs.Ids()) {
       if (set.module.programs[id].file != set.inputs.front()) continue;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/number_text.h"
+#include "dialects/argument_letters.h"
 
 namespace ncport::app {
 namespace {
@@ -120,8 +121,8 @@ std::vector<std::string_view> SplitArguments(std::string_view text) {
 
 }  // namespace
 
-Status ApplyCall(std::string_view call, const ir::Module& module, bool ignore_case, exec::RunOptions& options,
-                 diag::Sink& sink) {
+Status ApplyCall(std::string_view call, const ir::Module& module, const dialects::Profile& profile,
+                 exec::RunOptions& options, diag::Sink& sink) {
   const std::string_view whole = Trim(call);
   const std::size_t bracket = whole.find('(');
   const std::string_view name = Trim(whole.substr(0, bracket));
@@ -130,7 +131,7 @@ Status ApplyCall(std::string_view call, const ir::Module& module, bool ignore_ca
     if (whole.back() != ')') return Fail(sink, "--call", fmt::format("{} has no closing bracket", whole));
     inside = whole.substr(bracket + 1, whole.size() - bracket - 2);
   }
-  options.entry = module.FindProgram(name, ignore_case);
+  options.entry = module.FindProgram(name, profile.names.ignore_case.Or(true));
   if (!options.entry.Valid()) return Fail(sink, "--call", fmt::format("there is no program {}", name));
   options.is_call = true;
   const ir::Program& program = module.programs[options.entry];
@@ -139,10 +140,16 @@ Status ApplyCall(std::string_view call, const ir::Module& module, bool ignore_ca
   for (const std::string_view piece : SplitArguments(inside)) {
     const bool letter = piece.size() >= 2 && piece[1] == '=' && Upper(piece[0]) >= 'A' && Upper(piece[0]) <= 'Z';
     exec::EntryArgument argument;
-    argument.position = position++;
+    const std::uint16_t ordinal = position++;
+    argument.position = ordinal;
     ir::Type type = ir::Type::kAny;
     if (letter) {
       argument.letter = Upper(piece[0]);
+      const std::uint32_t cell = dialects::CellOfArgument(profile, argument.letter);
+      if (cell == 0)
+        return Fail(sink, "--call", fmt::format("{} is no letter that a call of {} can have", argument.letter, name));
+      argument.position = static_cast<std::uint16_t>(cell);
+      type = ir::Type::kReal;
     } else if (argument.position >= program.parameters.count) {
       return Fail(sink, "--call", fmt::format("{} takes {} arguments", name, program.parameters.count));
     } else {
@@ -153,8 +160,7 @@ Status ApplyCall(std::string_view call, const ir::Module& module, bool ignore_ca
       std::optional<Constant> constant = ParseConstant(text);
       if (constant) constant = ConvertTo(*std::move(constant), type);
       if (!constant)
-        return Fail(sink, "--call",
-                    fmt::format("{} is not a constant for argument {} of {}", text, argument.position + 1, name));
+        return Fail(sink, "--call", fmt::format("{} is not a constant for argument {} of {}", text, ordinal + 1, name));
       argument.value = constant->value;
       argument.text = constant->text;
     }

@@ -29,7 +29,9 @@ void ReportDifference(Context& context, const app::ProgramSet& set, const prove:
   auto& finding = context.findings.Report(diag::Code::kTraceDiffers, at, difference.what);
   std::string values;
   for (std::size_t i = 0; i < inputs.size() && i < verification.difference_set.size(); ++i) {
-    values += fmt::format("{}{}={:g}", i == 0 ? "" : " ", inputs[i].name, verification.difference_set[i]);
+    const double value = verification.difference_set[i];
+    values += fmt::format("{}{}", i == 0 ? "" : " ", inputs[i].name);
+    values += value == prove::kMissing ? " missing" : fmt::format("={:g}", value);
   }
   finding.notes.push_back({SourceRange{}, fmt::format("with {} ({})", values.empty() ? "no inputs" : values,
                                                       verification.difference_start)});
@@ -59,7 +61,17 @@ Status Translate(Context& context, std::vector<Input> inputs, const TranslateOpt
   NCPORT_TRY_ASSIGN(const dialects::Profile target,
                     dialects::LoadProfile(target_name, context.files, context.findings));
   const ir::Machine machine = dialects::MachineFor(set.profile);
-  const dialects::Config config = options.config != nullptr ? options.config->For(target_name) : dialects::Config{};
+  dialects::Config config = options.config != nullptr ? options.config->For(target_name) : dialects::Config{};
+  NCPORT_TRY_ASSIGN(const exec::RunOptions run, app::RunOptionsFor(context, set, options));
+  // A file whose programs carry no mark of their kind: the one that is called is a subprogram.
+  if (run.is_call) {
+    const ir::Program& program = set.module.programs[run.entry];
+    set.module.programs[run.entry].kind = ir::ProgramKind::kSub;
+    for (const exec::EntryArgument& argument : run.arguments) {
+      if (argument.letter != 0 && !argument.value.IsVacant())
+        config.given.push_back(fmt::format("{}.{}", set.module.View(program.name), argument.letter));
+    }
+  }
   backends::Translation translation;
   const ir::Module source = set.module;
   const backends::TranslateInput input{&source, &set.profile, &machine, &target, &config};
@@ -73,10 +85,9 @@ Status Translate(Context& context, std::vector<Input> inputs, const TranslateOpt
   std::optional<prove::Verification> verification;
   std::vector<prove::Input> varied;
   if (options.verify) {
-    NCPORT_TRY_ASSIGN(const exec::RunOptions run, app::RunOptionsFor(context, set, options));
     const app::ComparisonSetup setup{options.runs, options.seed, options.max_blocks};
     verification =
-        app::CompareTranslation(context, set, machine, run.entry, target, translation, files, &config, setup, varied);
+        app::CompareTranslation(context, set, machine, run, target, translation, files, &config, setup, varied);
     if (verification->difference) ReportDifference(context, set, *verification, varied);
     if (!verification->difference && !verification->compared) ReportNotCompared(context, set, *verification);
     result.summary = app::SummaryOf(*verification, varied);

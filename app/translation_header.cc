@@ -53,6 +53,9 @@ std::string SummaryOf(const prove::Verification& verification, const std::vector
   text += fmt::format("  {} of {} branches of the source taken; {} events compared, the longest run had {}\n",
                       verification.branches_taken, verification.branches, verification.events_compared,
                       verification.longest_trace);
+  if (verification.branches_listed > 0)
+    text += fmt::format("  {} of the others ask whether a letter is given, which the calls of this program decide\n",
+                        verification.branches_listed);
   return text;
 }
 

@@ -57,6 +57,7 @@ struct Config {
   std::vector<WordMapping> variables;
   std::vector<MCodeRule> mcodes;
   std::vector<ValueRange> ranges;
+  std::vector<std::string> given;  // from --call, not the file: letters that a macro without callers gets, "O9100.R"
   std::vector<Limit> limits;
   ir::ModalState entry;  // groups that the file leaves open are unknown
   std::optional<FailOn> fail_on;

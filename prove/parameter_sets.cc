@@ -22,6 +22,7 @@ ParameterSource::ParameterSource(std::vector<Input> inputs, std::uint64_t seed)
     : inputs_(std::move(inputs)), random_(seed) {}
 
 double ParameterSource::Fit(const Input& input, double value) {
+  if (value == kMissing) return value;
   if (input.boolean) return value != 0 ? 1 : 0;
   if (input.integer) value = std::round(value);
   if (input.low) value = std::max(value, input.integer ? std::ceil(*input.low) : *input.low);
@@ -30,6 +31,7 @@ double ParameterSource::Fit(const Input& input, double value) {
 }
 
 double ParameterSource::Draw(const Input& input) {
+  if (input.may_miss && random_.Below(4) == 0) return kMissing;
   if (input.boolean) return static_cast<double>(random_.Below(2));
   const std::uint64_t kind = random_.Below(8);
   if (kind == 0 && !input.seen.empty()) return input.seen[random_.Below(input.seen.size())];
@@ -51,8 +53,12 @@ double ParameterSource::Draw(const Input& input) {
 
 Input ParameterSource::Bounded(std::size_t index, const ParameterSet& set) const {
   Input input = inputs_[index];
-  if (input.low_of) input.low = set[input.low_of->input] + input.low_of->added;
-  if (input.high_of) input.high = set[input.high_of->input] + input.high_of->added;
+  const auto end = [&](const RelatedEnd& related) -> std::optional<double> {
+    if (set[related.input] == kMissing) return std::nullopt;
+    return set[related.input] + related.added;
+  };
+  if (input.low_of) input.low = end(*input.low_of);
+  if (input.high_of) input.high = end(*input.high_of);
   return input;
 }
 
@@ -97,7 +103,21 @@ ParameterSet ParameterSource::Next() {
   return set;
 }
 
+std::optional<ParameterSet> ParameterSource::NextOdd() {
+  std::vector<std::size_t> open;
+  for (std::size_t i = 0; i < inputs_.size(); ++i) {
+    const Input& input = inputs_[i];
+    if (!input.boolean && !input.low && !input.high && !input.low_of && !input.high_of) open.push_back(i);
+  }
+  if (open.empty()) return std::nullopt;
+  ParameterSet set = Next();
+  double& value = set[open[random_.Below(open.size())]];
+  value = value == kMissing || random_.Below(2) == 0 ? 0 : -value;
+  return set;
+}
+
 std::optional<ParameterSet> ParameterSource::With(const ParameterSet& set, std::size_t index, double value) const {
+  if (set[index] == kMissing) return std::nullopt;
   ParameterSet changed = set;
   changed[index] = value;
   if (!std::isfinite(value) || Fit(Bounded(index, changed), value) != value) return std::nullopt;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,9 @@
 #include "ir/nodes.h"
 
 namespace ncport::prove {
+
+/// Stands in a set for an input that is not given: an argument that the call leaves out.
+inline constexpr double kMissing = -std::numeric_limits<double>::infinity();
 
 /// An end of a range that depends on another input: its value and a number.
 struct RelatedEnd {
@@ -25,6 +29,7 @@ struct Input {
   std::vector<double> seen;                   // values that calls give
   bool integer = false;                       // INT, BOOL
   bool boolean = false;
+  bool may_miss = false;  // sets without it are drawn too
 };
 
 /// One value for each input, in their order.
@@ -51,6 +56,9 @@ class ParameterSource {
   ParameterSource(std::vector<Input> inputs, std::uint64_t seed);
 
   ParameterSet Next();
+  /// A set in which one input without a declared range is 0, or has the other sign than the calls give it: what
+  /// programs refuse. None: all inputs have ranges.
+  std::optional<ParameterSet> NextOdd();
   /// `set` with the input `index` changed to `value`, as that input takes it; none: outside of its range.
   [[nodiscard]] std::optional<ParameterSet> With(const ParameterSet& set, std::size_t index, double value) const;
   [[nodiscard]] const std::vector<Input>& Inputs() const { return inputs_; }

@@ -14,6 +14,21 @@ namespace ncport::prove {
 
 namespace {
 
+/// The groups that the callers of a subprogram promise.
+void Promise(const ir::ModalState& entry, ir::ModalState& start) {
+  const auto take = [](auto promised, auto& group) {
+    if (promised != decltype(promised){}) group = promised;
+  };
+  take(entry.motion, start.motion);
+  take(entry.plane, start.plane);
+  take(entry.distance, start.distance);
+  take(entry.feed_mode, start.feed_mode);
+  take(entry.speed_mode, start.speed_mode);
+  take(entry.units, start.units);
+  take(entry.path, start.path);
+  take(entry.return_level, start.return_level);
+}
+
 /// A side whose inputs can be set: arguments of calls become literals of a private copy, whose numbers change from run
 /// to run while everything that was linked stays.
 class Stage {
@@ -34,25 +49,38 @@ class Stage {
 
   ir::Module module_;
   ir::Machine machine_;
-  ir::Machine clean_machine_;
+  ir::ModalState clean_start_;
+  bool clean_position_known_;
+  ir::ModalState entry_;
   std::unique_ptr<exec::Linked> linked_;
   exec::RunOptions options_;
   std::size_t clean_start_values_ = 0;
-  std::vector<std::pair<ir::ExprId, std::size_t>> literals_;    // node, input
-  std::vector<std::pair<std::size_t, std::size_t>> arguments_;  // of the entry: index, input
-  std::vector<std::pair<std::size_t, std::size_t>> cells_;      // start value, input
+  struct Argument {
+    ir::ExprId literal;     // in a call
+    std::size_t index = 0;  // of the entry, when there is no literal
+    std::size_t input = 0;
+    bool letter = false;  // may stay empty
+    bool truth = false;
+  };
+  std::vector<Argument> arguments_;
+  std::vector<std::pair<std::size_t, std::size_t>> cells_;  // start value, input
 };
 
 Stage::Stage(const Side& side, const std::vector<BoundInput>& inputs, bool source)
-    : module_(*side.module), machine_(*side.machine), clean_machine_(*side.machine) {
+    : module_(*side.module), machine_(*side.machine), entry_(side.entry_state) {
   // A start offset of the profile would hide the word that selects it: on either side it is what the operator left. So
   // it is with the path mode.
-  clean_machine_.start.work_offset = {};
-  clean_machine_.start.path = ir::PathMode::kUnknown;
-  machine_.start = clean_machine_.start;
+  machine_.start.work_offset = {};
+  machine_.start.path = ir::PathMode::kUnknown;
+  if (side.is_call) Promise(entry_, machine_.start);
+  clean_start_ = machine_.start;
+  clean_position_known_ = machine_.position_known;
   options_.entry = side.entry;
   options_.is_call = side.is_call;
   options_.report_variables = true;
+  options_.start_position_known = side.start_axes != 0;
+  options_.start_axes = side.start_axes;
+  std::copy(std::begin(side.start_position), std::end(side.start_position), options_.start_position);
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     for (const InputPlace& place : source ? inputs[i].source : inputs[i].target) Bind(place, i);
   }
@@ -73,7 +101,7 @@ void Stage::Bind(const InputPlace& place, std::size_t input) {
     exec::EntryArgument argument;
     argument.position = place.position;
     argument.letter = place.letter;
-    arguments_.emplace_back(options_.arguments.size(), input);
+    arguments_.push_back({{}, options_.arguments.size(), input, place.letter != 0, place.truth});
     options_.arguments.push_back(argument);
     return;
   }
@@ -92,12 +120,13 @@ void Stage::Bind(const InputPlace& place, std::size_t input) {
     ir::Call call = module_.calls[id];
     if (call.program != place.callee) continue;
     const ir::ExprId literal = make.Literal(0);
-    literals_.emplace_back(literal, input);
+    arguments_.push_back({literal, 0, input, place.letter != 0, place.truth});
     bool found = false;
     for (const ir::ArgId arg : call.args) {
       ir::Arg& given = module_.args[arg];
-      if (place.letter != 0 ? given.letter != place.letter : given.position != place.position) continue;
+      if ((given.letter != 0) != (place.letter != 0) || given.position != place.position) continue;
       given.value = literal;
+      given.increments = false;
       found = true;
     }
     if (found) continue;
@@ -118,8 +147,19 @@ void Stage::Bind(const InputPlace& place, std::size_t input) {
 }
 
 void Stage::Set(const ParameterSet& set) {
-  for (const auto& [literal, input] : literals_) module_.exprs[literal].number = set[input];
-  for (const auto& [argument, input] : arguments_) options_.arguments[argument].value = exec::Value::Real(set[input]);
+  for (const Argument& argument : arguments_) {
+    const double value = set[argument.input];
+    const bool missing = value == kMissing;
+    const double number = argument.truth ? (missing ? 0 : 1) : (missing ? 0 : value);
+    const bool empty = missing && argument.letter;
+    if (!argument.literal.Valid()) {
+      options_.arguments[argument.index].value = empty ? exec::Value::Vacant() : exec::Value::Real(number);
+      continue;
+    }
+    ir::Expr& expr = module_.exprs[argument.literal];
+    expr.op = empty ? ir::ExprOp::kVacant : ir::ExprOp::kLiteral;
+    expr.number = number;
+  }
   for (const auto& [cell, input] : cells_) options_.start_values[cell].value = exec::Value::Real(set[input]);
 }
 
@@ -141,6 +181,7 @@ void Stage::Poison(Random& random, const VerifyOptions& options) {
   start.speed_mode = static_cast<ir::SpeedMode>(1 + random.Below(2));
   start.units = static_cast<ir::Units>(1 + random.Below(2));
   start.comp = ir::CutterComp::kOff;
+  if (options_.is_call) Promise(entry_, start);
   start.work_offset = {};  // whichever the program before left
   machine_.position_known = false;
   for (const ir::SpaceId space : options.garbage) {
@@ -161,8 +202,8 @@ void Stage::Poison(Random& random, const VerifyOptions& options) {
 }
 
 void Stage::Unpoison() {
-  machine_.start = clean_machine_.start;
-  machine_.position_known = clean_machine_.position_known;
+  machine_.start = clean_start_;
+  machine_.position_known = clean_position_known_;
   options_.start_values.resize(clean_start_values_);
 }
 
@@ -218,6 +259,7 @@ class Verifier {
                    exec::Coverage* coverage);
   bool CompareFinalValues(const ParameterSet& set, std::string_view start);
   bool AimAtMultiples(const ParameterSet& set);
+  void TryOddValues();
   void CollectSkipLevels();
   void CountBranches();
   [[nodiscard]] bool Done() const { return result_.difference.has_value() || !result_.not_compared.empty(); }
@@ -339,7 +381,7 @@ bool Verifier::AimAtMultiples(const ParameterSet& set) {
   if (first.empty() || sets_.Inputs().empty()) return true;
   const exec::Quotient aim = first[random_.Below(first.size())];
   const std::size_t index = random_.Below(set.size());
-  if (sets_.Inputs()[index].integer) return true;
+  if (sets_.Inputs()[index].integer || set[index] == kMissing) return true;
   const double step = std::max(0.5, std::fabs(set[index]) / 16);
   const std::optional<ParameterSet> moved = sets_.With(set, index, set[index] + step);
   if (!moved) return true;
@@ -370,7 +412,27 @@ bool Verifier::AimAtMultiples(const ParameterSet& set) {
   return RunSet(*exact);
 }
 
+/// Ways that no set took so far may be those that refuse a value: values that no call gives are tried. A set with which
+/// the source goes on for ever says nothing.
+void Verifier::TryOddValues() {
+  constexpr int kTries = 200;
+  constexpr std::uint64_t kBlocks = 200'000;
+  for (int i = 0; i < kTries && !Done() && !result_.open_branches.empty(); ++i) {
+    const std::optional<ParameterSet> set = sets_.NextOdd();
+    if (!set) return;
+    if (!seen_.insert(*set).second) continue;
+    source_.Set(*set);
+    diag::Sink quiet;
+    const exec::Outcome outcome = source_.Run(0, kBlocks, source_trace_, quiet, nullptr);
+    if (outcome != exec::Outcome::kEnded && outcome != exec::Outcome::kAlarmed) continue;
+    if (!RunSet(*set)) return;
+    CountBranches();
+  }
+}
+
 void Verifier::CountBranches() {
+  result_.branches = result_.branches_taken = result_.branches_listed = 0;
+  result_.open_branches.clear();
   const ir::Module& module = source_.Module();
   for (const ir::Program& program : module.programs.All()) {
     for (const ir::BlockId id : program.blocks) {
@@ -383,7 +445,9 @@ void Verifier::CountBranches() {
         ++result_.branches;
         if ((bits & (taken ? 2U : 4U)) != 0) {
           ++result_.branches_taken;
-        } else if (!listed) {
+        } else if (listed) {
+          ++result_.branches_listed;
+        } else {
           result_.open_branches.push_back({id, taken});
         }
       }
@@ -403,6 +467,7 @@ Verification Verifier::Run() {
     if (inputs && i % 4 == 3 && result_.sets_counted < options_.runs && !AimAtMultiples(set)) break;
   }
   CountBranches();
+  if (!Done() && inputs) TryOddValues();
   if (Done()) return std::move(result_);
   if (inputs && result_.sets_counted < options_.least_runs) {
     result_.not_compared = fmt::format("only {} of {} parameter sets moved before an alarm; {} are needed",

@@ -20,15 +20,19 @@ struct Side {
   const ir::Module* module = nullptr;
   const ir::Machine* machine = nullptr;
   ir::ProgramId entry;
-  bool is_call = false;  // the entry is a subprogram that is ported without its callers
+  bool is_call = false;          // the entry is a subprogram that is ported without its callers
+  std::uint16_t start_axes = 0;  // axes whose position is known at the start
+  double start_position[ir::kMaxAxes] = {};
+  ir::ModalState entry_state;  // what the callers of such a subprogram promise ([entry]); other groups are unknown
 };
 
 /// Where one input goes in. A place in the arguments of all calls of a program, or a cell at the start.
 struct InputPlace {
-  ir::ProgramId callee;  // arguments of calls to it (or of the entry itself)
-  std::uint16_t position = 0;
-  char letter = 0;
-  ir::SpaceId space;  // else: this cell at the start
+  ir::ProgramId callee;        // arguments of calls to it (or of the entry itself)
+  std::uint16_t position = 0;  // of a parameter from 0; of a letter: the local cell that it fills
+  char letter = 0;             // 0 = positional: a missing value is passed as 0
+  bool truth = false;          // takes whether the input is given, not its value
+  ir::SpaceId space;           // else: this cell at the start
   std::uint32_t cell = 0;
 };
 
@@ -66,6 +70,7 @@ struct Verification {
   std::uint32_t alarms_agreed = 0;    // sets that both sides refuse before motion
   std::uint32_t exact_multiples = 0;  // sets aimed at a whole quotient
   std::uint32_t branches = 0, branches_taken = 0;
+  std::uint32_t branches_listed = 0;  // not taken, and listed as such
   std::vector<Branch> open_branches;
   std::size_t events_compared = 0;
   std::size_t spindle_moved_across_rapid = 0;

@@ -292,6 +292,7 @@ bool RefuseInputs(const RaiseInput& input, const Translation& out, diag::Sink& s
   bool ok = true;
   for (const ir::analysis::UnwrittenRead& read : ir::analysis::UnwrittenCells(module, graphs, calls)) {
     const ir::Space& space = module.spaces[read.space];
+    if (space.visibility == ir::Visibility::kLevel) continue;  // letters of the call, or empty
     const bool computed = read.cell == ir::analysis::UnwrittenRead::kComputed;
     // A computed number may reach any cell of the space: all of it is pinned by its first cell.
     const std::string first = fmt::format("{}{}", module.View(space.name), computed ? space.first : read.cell);

@@ -86,6 +86,9 @@ class LegalCheck {
       case WordOp::kLengthOffset:
       case WordOp::kRestart:
       case WordOp::kSkipRest:
+      case WordOp::kCycle:  // a later pass writes cycles out or refuses them
+      case WordOp::kCycleValue:
+      case WordOp::kReturnLevel:
         if (!expressions_) return;
         break;
       case WordOp::kAxis:

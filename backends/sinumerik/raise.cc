@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -170,6 +171,17 @@ NumbersToNamesConfig CellConfig(const RaiseInput& input, const EmptyValuesResult
   return config;
 }
 
+/// Letters whose absence the output would not notice.
+void TellTakenForGiven(const RaiseInput& input, const EmptyValuesResult& empty, Translation& out) {
+  std::map<ir::ProgramId, std::string> letters;
+  for (const auto& [program, cell] : empty.taken_for_given)
+    letters[program] += fmt::format(" {}", input.argument_letter(cell));
+  for (const auto& [program, names] : letters) {
+    out.assumptions.push_back(fmt::format("every call of {} gives{}: the program does not ask whether it has them",
+                                          out.module.View(out.module.programs[program].name), names));
+  }
+}
+
 /// Values that the compiler made are printed like any other.
 void ShowImplied(Module& module) {
   for (ir::Expr& expr : module.exprs.All()) {
@@ -274,10 +286,19 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
       return std::any_of(input.config->ranges.begin(), input.config->ranges.end(),
                          [&](const dialects::ValueRange& range) { return range.name == name; });
     };
+    empty_config.given = [&](ir::ProgramId program, std::uint32_t cell) {
+      const char letter = input.argument_letter != nullptr ? input.argument_letter(cell) : '\0';
+      if (letter == 0) return false;
+      const std::string name = fmt::format("{}.{}", module.View(module.programs[program].name), letter);
+      const auto is_declared = [&](const dialects::ValueRange& range) { return range.name == name; };
+      return std::ranges::any_of(input.config->ranges, is_declared) ||
+             std::ranges::find(input.config->given, name) != input.config->given.end();
+    };
   }
   const EmptyValuesResult empty = EmptyValues(module, empty_config, sink);
   ok = empty.ok && ok;
   if (!ok) return false;
+  TellTakenForGiven(input, empty, out);
   if (!MapFrames(input, out, sink)) return false;
   ExpandCyclesConfig cycles;
   cycles.sub_entry = entry;

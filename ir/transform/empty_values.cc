@@ -115,6 +115,7 @@ class Pass {
   std::set<ProgramId> modal_callees_;
   SpaceId local_space_, given_space_;
   std::set<std::uint32_t> given_;       // local cells
+  std::set<std::uint32_t> asked_;       // cells that a program compares with an empty value
   std::set<std::uint32_t> complained_;  // blocks
   bool changed_ = false;
 };
@@ -171,6 +172,13 @@ void Pass::FindCells() {
     RewriteProgram(module_, program, [&](Module& module, ExprId id) {
       const Expr& expr = module.exprs[id];
       if (expr.op == ExprOp::kCell && IsTracked(SpaceId{std::size_t{expr.a}})) index_.try_emplace({expr.a, expr.b}, 0);
+      const bool compares = expr.op == ExprOp::kEqual || expr.op == ExprOp::kNotEqual;
+      if (compares && (expr.flags & Expr::kVacantDiffers) != 0) {
+        const Expr& a = module.exprs[Bare(ExprId{std::size_t{expr.a}})];
+        const Expr& b = module.exprs[Bare(ExprId{std::size_t{expr.b}})];
+        if (a.op == ExprOp::kCell && b.op == ExprOp::kVacant) asked_.insert(a.b);
+        if (b.op == ExprOp::kCell && a.op == ExprOp::kVacant) asked_.insert(b.b);
+      }
       if (expr.op != ExprOp::kCellAt) return id;
       const auto range = IndexRangeOf(module, ExprId{std::size_t{expr.a}});
       for (const SpaceId space : module.spaces.Ids()) {
@@ -247,8 +255,12 @@ void Pass::Analyse() {
     State state(cells_.size(), kUnsure | kFromEntry);
     for (std::size_t i = 0; i < cells_.size(); ++i) {
       if (IsLocal(i) && main) state[i] = kEmpty;
-      if (!IsLocal(i) && config_.holds_number && config_.holds_number(cells_[i].second))
+      const std::uint32_t cell = cells_[i].second;
+      if (!IsLocal(i) && config_.holds_number && config_.holds_number(cell)) state[i] = kNumber | kFromEntry;
+      if (IsLocal(i) && !main && !asked_.contains(cell) && config_.given && config_.given(program, cell)) {
         state[i] = kNumber | kFromEntry;
+        result_.taken_for_given.emplace(program, cell);
+      }
     }
     Enter(program, state);
     dirty_[program.value] = 1;

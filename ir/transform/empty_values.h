@@ -26,12 +26,17 @@ inline constexpr std::string_view kGivenSpace = "given";
 struct EmptyValuesConfig {
   /// Common cells that hold a number before the run, as the user declares; none = no cell.
   std::function<bool(std::uint32_t cell)> holds_number;
+  /// Arguments that every call of a program without callers here gives, as the user declares; none = none. Taken only
+  /// where the program does not ask itself whether it has the value.
+  std::function<bool(ProgramId program, std::uint32_t cell)> given;
 };
 
 struct EmptyValuesResult {
   bool ok = true;
   /// Local cells that a program reads as its caller left them; programs that nothing calls included.
   std::set<std::pair<ProgramId, std::uint32_t>> read_at_entry;
+  /// Arguments that were taken for given (EmptyValuesConfig::given).
+  std::set<std::pair<ProgramId, std::uint32_t>> taken_for_given;
   /// Common cells that every run of a main program to its end has written.
   std::set<std::uint32_t> written_at_end;
 };

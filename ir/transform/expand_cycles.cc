@@ -88,6 +88,8 @@ class Pass {
 
   void Refuse(const Block& block, std::string_view what) {
     ok_ = false;
+    // Passes before this one may have made several blocks of one: one finding for it.
+    if (block.origin.Valid() && !refused_.insert(block.origin.value).second) return;
     sink_.Report(diag::Code::kNotExpressible, module_.RangeOf(block), what, "a language without drilling modes");
   }
 
@@ -536,6 +538,7 @@ class Pass {
   ExprId locals_[kFields];
   ExprId initial_;
   bool ok_ = true;
+  std::set<std::uint32_t> refused_;  // origins of blocks
 };
 
 }  // namespace

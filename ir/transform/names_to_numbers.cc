@@ -47,6 +47,7 @@ class Allocation {
   void FindUses();
   void FindFeedParameters(ProgramId program);
   // Where it goes.
+  void KeepLocals();
   void PlaceSpaces();
   void PlaceProgram(ProgramId program);
   bool PlaceParameter(ProgramId program, VariableId id, std::size_t& next_letter, bool& feed_taken);
@@ -162,10 +163,29 @@ bool Allocation::TakeLocal(ProgramId program, std::uint32_t count, std::uint32_t
   return false;
 }
 
+/// Numbered locals of the source stay what they are: the target has the same ones at each call. What the passes made
+/// beside them takes others, in every program: some may run with the locals of their caller.
+void Allocation::KeepLocals() {
+  for (const SpaceId space : module_.spaces.Ids()) {
+    if (space == space_ || module_.spaces[space].visibility != Visibility::kLevel) continue;
+    offsets_[space.value] = 0;
+    std::set<std::uint32_t> cells = used_cells_[space.value];
+    if (indexed_spaces_.contains(space.value)) {
+      for (std::uint32_t cell = module_.spaces[space].first; cell <= module_.spaces[space].last; ++cell)
+        cells.insert(cell);
+    }
+    for (const Arg& arg : module_.args.All()) {
+      if (arg.letter != 0) cells.insert(arg.position);
+    }
+    for (const ProgramId program : module_.programs.Ids())
+      used_locals_[program.value].insert(cells.begin(), cells.end());
+  }
+}
+
 void Allocation::PlaceSpaces() {
   for (const NamesToNumbersConfig::Pin& pin : config_.pins) used_common_.insert(pin.cell);
   for (const std::uint32_t space : indexed_spaces_) {
-    if (SpaceId{space} == space_) continue;
+    if (SpaceId{space} == space_ || offsets_.contains(space)) continue;
     // An index may reach any cell: the space moves as one piece with one offset, or not at all.
     const Space& source = module_.spaces[SpaceId{space}];
     std::uint32_t first = 0;
@@ -434,9 +454,15 @@ void Allocation::LowerCalls(ProgramId program) {
       if ((word.op != WordOp::kCall && word.op != WordOp::kModalCall) || !word.Extra<CallId>().Valid()) continue;
       Call call = module_.calls[word.Extra<CallId>()];
       if (!call.program.Valid()) continue;  // refused elsewhere: an unknown program
-      call.new_level = OwnsLocals(call.program);
+      // Letters of the source fill the same locals here; without them, a program without locals needs no level.
+      const bool letters = std::any_of(module_.spaces.All().begin(), module_.spaces.All().end(),
+                                       [](const Space& space) { return space.visibility == Visibility::kLevel; });
+      if (!letters) call.new_level = OwnsLocals(call.program);
       const IdRange<VariableId> parameters = module_.programs[call.program].parameters;
       std::vector<Arg> args;
+      for (const ArgId arg : call.args) {
+        if (module_.args[arg].letter != 0) args.push_back(module_.args[arg]);
+      }
       std::set<std::uint32_t> references;
       for (std::uint32_t i = 0; i < parameters.count; ++i) {
         const Variable parameter = module_.variables[parameters[i]];
@@ -444,7 +470,7 @@ void Allocation::LowerCalls(ProgramId program) {
         const Home home = homes_[parameters[i].value];
         ExprId given;
         for (const ArgId arg : call.args) {
-          if (module_.args[arg].position == i) given = module_.args[arg].value;
+          if (module_.args[arg].letter == 0 && module_.args[arg].position == i) given = module_.args[arg].value;
         }
         if (!parameter.by_reference) {
           Arg arg;
@@ -553,6 +579,7 @@ NamesToNumbersResult Allocation::Run() {
   space_ =
       AddSpace(module_, config_.space, config_.cells.first, config_.cells.last, Type::kNumber, StartValue::kVacant);
   FindUses();
+  KeepLocals();
   PlaceSpaces();
   for (const ProgramId program : module_.programs.Ids()) PlaceProgram(program);
   for (std::uint32_t i = 0; i < module_.variables.Size(); ++i) {

@@ -29,6 +29,7 @@ struct Programs {
   }
   [[nodiscard]] std::string Message() const { return sink.Empty() ? "" : sink.All().front().message; }
 
+  dialects::Profile profile = dialects::BuiltIn("sinumerik-840d-mill");
   ir::Module module;
   ir::VariableId count;
   ir::SpaceId space;
@@ -38,7 +39,7 @@ struct Programs {
 
 TEST_CASE("--call: positional constants in the types of the parameters, empty is missing") {
   Programs p;
-  REQUIRE(ApplyCall(" ring( 10,,\"A,B\",z,1)", p.module, true, p.options, p.sink).Ok());
+  REQUIRE(ApplyCall(" ring( 10,,\"A,B\",z,1)", p.module, p.profile, p.options, p.sink).Ok());
   CHECK(p.options.entry == ir::ProgramId{1});
   CHECK(p.options.is_call);
   REQUIRE(p.options.arguments.size() == 5);
@@ -53,19 +54,28 @@ TEST_CASE("--call: positional constants in the types of the parameters, empty is
 TEST_CASE("--call: the name alone, and no arguments") {
   for (const char* call : {"RING", "RING()", "RING( )"}) {
     Programs p;
-    CHECK(ApplyCall(call, p.module, true, p.options, p.sink).Ok());
+    CHECK(ApplyCall(call, p.module, p.profile, p.options, p.sink).Ok());
     CHECK(p.options.arguments.empty());
   }
 }
 
-TEST_CASE("--call: letters keep their letter") {
+TEST_CASE("--call: letters fill the local variables that the language gives them") {
   Programs p;
-  REQUIRE(ApplyCall("MAIN(A=1.5,b=-2)", p.module, true, p.options, p.sink).Ok());
+  p.profile = dialects::BuiltIn("fanuc-mill");
+  REQUIRE(ApplyCall("MAIN(R=1.5,b=-2)", p.module, p.profile, p.options, p.sink).Ok());
   REQUIRE(p.options.arguments.size() == 2);
-  CHECK(p.options.arguments[0].letter == 'A');
+  CHECK(p.options.arguments[0].letter == 'R');
+  CHECK(p.options.arguments[0].position == 18);
   CHECK(p.options.arguments[0].value.number == 1.5);
   CHECK(p.options.arguments[1].letter == 'B');
+  CHECK(p.options.arguments[1].position == 2);
   CHECK(p.options.arguments[1].value.number == -2);
+  CHECK(p.options.arguments[1].value.type == ir::Type::kReal);
+
+  Programs other;
+  other.profile = dialects::BuiltIn("fanuc-mill");
+  CHECK(!ApplyCall("MAIN(G=1)", other.module, other.profile, other.options, other.sink).Ok());
+  CHECK(other.Message() == "--call: G is no letter that a call of MAIN can have");
 }
 
 TEST_CASE("--call: what does not fit is said") {
@@ -79,7 +89,7 @@ TEST_CASE("--call: what does not fit is said") {
   };
   for (const auto& [call, message] : kWrong) {
     Programs p;
-    CHECK(!ApplyCall(call, p.module, true, p.options, p.sink).Ok());
+    CHECK(!ApplyCall(call, p.module, p.profile, p.options, p.sink).Ok());
     CHECK(p.Message() == message);
   }
 }

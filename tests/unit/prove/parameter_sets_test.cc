@@ -80,5 +80,47 @@ TEST_CASE("a range that is empty in some draws is drawn again") {
   }
 }
 
+TEST_CASE("an input that may miss does so in some sets, and its neighbours keep their values") {
+  Input angle;
+  angle.name = "O9100.A";
+  angle.seen = {15};
+  angle.may_miss = true;
+  Input depth = Between("O9100.Z", -20, -1);
+  depth.high_of = RelatedEnd{0, -16};
+  depth.high.reset();
+  ParameterSource source({angle, depth}, 7);
+  CHECK(source.Next()[0] != kMissing);
+  int missing = 0;
+  for (int i = 0; i < 400; ++i) {
+    const ParameterSet set = source.Next();
+    CHECK(set[1] >= -20);
+    if (set[0] != kMissing) continue;
+    ++missing;
+    CHECK(!source.With(set, 0, 5));
+  }
+  CHECK(missing > 50);
+  CHECK(missing < 200);
+}
+
+TEST_CASE("odd sets change the sign of inputs without a range, or make them 0") {
+  Input radius;
+  radius.name = "O9100.R";
+  radius.seen = {35};
+  ParameterSource source({radius, Between("O9100.F", 100, 200)}, 3);
+  bool zero = false, negative = false;
+  for (int i = 0; i < 100; ++i) {
+    const auto set = source.NextOdd();
+    REQUIRE(set);
+    CHECK((*set)[0] <= 0);
+    CHECK((*set)[1] >= 100);
+    zero = zero || (*set)[0] == 0;
+    negative = negative || (*set)[0] < 0;
+  }
+  CHECK(zero);
+  CHECK(negative);
+  ParameterSource declared({Between("O9100.F", 100, 200)}, 3);
+  CHECK(!declared.NextOdd());
+}
+
 }  // namespace
 }  // namespace ncport::prove

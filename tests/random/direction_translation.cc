@@ -73,9 +73,11 @@ Finding CheckTranslation(const Subject& subject, const Direction& /*direction*/)
   app::ComparisonSetup setup;
   setup.max_blocks = subject.max_blocks * 4;
   setup.vary_inputs = false;
+  exec::RunOptions run;
+  run.entry = entry;
   std::vector<prove::Input> varied;
-  const prove::Verification verification = app::CompareTranslation(
-      context, set, *subject.machine, entry, *subject.target, translation, files, subject.config, setup, varied);
+  const prove::Verification verification = app::CompareTranslation(context, set, *subject.machine, run, *subject.target,
+                                                                   translation, files, subject.config, setup, varied);
   const auto artefact = [&] { return Listing(texts) + ListingOf(files); };
   if (verification.difference) {
     return {Verdict::kFails, "compare, " + KindOf(verification.difference->what),

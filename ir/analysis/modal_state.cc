@@ -145,6 +145,7 @@ ModalFlow::ModalFlow(const Module& module, const Machine& machine, const FlowGra
       summaries_(module.programs.Size(), {All(kNever), All(kNever)}),
       entries_(module.programs.Size(), All(kNever)) {
   FindComputedGroups();
+  FindModalPrograms();
   // Callees first; programs that call each other in a circle until nothing changes.
   const std::vector<ProgramId>& order = calls.BottomUp();
   for (std::size_t begin = 0; begin < order.size();) {
@@ -166,6 +167,15 @@ void ModalFlow::FindComputedGroups() {
     if (const Group group = GroupOf(code.op); group != kNone) computed_.groups[group] = 0;
     if (code.op == WordOp::kWorkOffset) computed_.work_offset = 0;
     if (code.op == WordOp::kSpeedMode && machine_.surface_speed_per_revolution) computed_.groups[kFeed] = 0;
+  }
+}
+
+void ModalFlow::FindModalPrograms() {
+  for (const Word& word : module_.words.All()) {
+    if (word.op != WordOp::kModalCall || !module_.calls.Contains(word.Extra<CallId>())) continue;
+    const ProgramId program = module_.calls[word.Extra<CallId>()].program;
+    if (program.Valid() && std::ranges::find(modal_programs_, program) == modal_programs_.end())
+      modal_programs_.push_back(program);
   }
 }
 
@@ -356,6 +366,9 @@ void ModalFlow::ThroughModalCall(Walk& walk) {
     ThroughCall(module_.calls[call], called);
   } else {
     called.state = All(0);
+    State anything = All(0);
+    anything.modal_call = kNoCall;
+    for (const ProgramId program : modal_programs_) Enter(program, anything);
   }
   if (!IsNever(called.state)) called.state.modal_call = active;
   walk.elsewhere = called.elsewhere;
@@ -365,9 +378,16 @@ void ModalFlow::ThroughModalCall(Walk& walk) {
 void ModalFlow::ThroughCall(const Call& call, Walk& walk) {
   if (IsNever(walk.state)) return;
   const std::uint32_t modal_call = walk.state.modal_call;
-  // Programs are analysed as if no modal call were active when they start. Where one is, its runs in between may change
-  // anything. The same holds for programs that are not known and for ranges of blocks.
-  const bool quiet = modal_call == kNoCall || modal_call == kSame32;
+  // What programs do to any caller is found as if no modal call were active when they start. Where one is, its runs in
+  // between may change anything, unless its program puts all back. The same holds for programs that are not known and
+  // for ranges of blocks.
+  bool quiet = modal_call == kNoCall || modal_call == kSame32;
+  if (!quiet && modal_call >= kKnownCall && machine_.modal_call_levels <= 1) {
+    CallId active;
+    active.value = modal_call - kKnownCall;
+    const ProgramId runs = module_.calls[active].program;
+    quiet = runs.Valid() && module_.programs[runs].saves_modal_state;
+  }
   const bool known = call.program.Valid() && call.form != CallForm::kBlockRange;
   if (known && quiet) {
     const Summary& summary = summaries_[call.program.value];
@@ -386,12 +406,11 @@ void ModalFlow::ThroughCall(const Call& call, Walk& walk) {
 
 void ModalFlow::Enter(ProgramId program, const State& state) {
   if (!absolute_) return;
-  State arrives = state;
-  arrives.modal_call = kNoCall;
-  arrives = Join(entries_[program.value], arrives);
+  const State arrives = Join(entries_[program.value], state);
   if (arrives == entries_[program.value]) return;
   entries_[program.value] = arrives;
   entries_changed_ = true;
+  entered_anew_ = true;
 }
 
 void ModalFlow::FindEntries(const ModalOptions& options) {
@@ -405,14 +424,28 @@ void ModalFlow::FindEntries(const ModalOptions& options) {
   absolute_ = true;
   std::ranges::fill(before_, All(kNever));
   std::ranges::fill(at_, All(kNever));
+  if (modal_programs_.empty()) return EnterAll(&sub_entry);
+  // A modal call runs its program also behind moves of programs that are called while it is active: no order of the
+  // calls has all callers first.
+  do {
+    entered_anew_ = false;
+    EnterAll(nullptr);
+  } while (entered_anew_);
+  do {
+    entered_anew_ = false;
+    EnterAll(&sub_entry);
+  } while (entered_anew_);
+}
+
+void ModalFlow::EnterAll(const State* sub_entry) {
   const std::vector<ProgramId>& order = calls_.BottomUp();
   for (std::size_t end = order.size(); end > 0;) {
     std::size_t begin = end;
     while (begin > 0 && calls_.GroupOf(order[begin - 1]) == calls_.GroupOf(order[end - 1])) --begin;
     // What nothing calls starts as the user says.
-    bool entered = false;
+    bool entered = sub_entry == nullptr;
     for (std::size_t i = begin; i < end; ++i) entered = entered || !IsNever(entries_[order[i].value]);
-    for (std::size_t i = begin; i < end && !entered; ++i) entries_[order[i].value] = sub_entry;
+    for (std::size_t i = begin; i < end && !entered; ++i) entries_[order[i].value] = *sub_entry;
     // In a circle an entry may change others before it.
     do {
       entries_changed_ = false;
@@ -433,6 +466,11 @@ ModalState ModalFlow::At(ProgramId program, BlockId block) const {
 }
 
 ModalState ModalFlow::Entry(ProgramId program) const { return Decode(entries_[program.value]); }
+
+bool ModalFlow::ModalCallPossible(ProgramId program, BlockId block) const {
+  if (modal_programs_.empty() || !Reached(program, block)) return false;
+  return at_[block.value].modal_call != kNoCall;
+}
 
 bool ModalFlow::Reached(ProgramId program, BlockId block) const {
   return !IsNever(before_[block.value]) && !IsNever(entries_[program.value]);

@@ -35,6 +35,8 @@ class ModalFlow {
   /// are in force in one block only.
   [[nodiscard]] ModalState At(ProgramId program, BlockId block) const;
   [[nodiscard]] ModalState Entry(ProgramId program) const;
+  /// False if no modal call is active on any way to the block: its moves run no other program.
+  [[nodiscard]] bool ModalCallPossible(ProgramId program, BlockId block) const;
   /// False if no way leads to the block from a start of its program that is ever taken.
   [[nodiscard]] bool Reached(ProgramId program, BlockId block) const;
 
@@ -81,7 +83,10 @@ class ModalFlow {
   void Change(const Word& word, State& state, std::uint8_t& one_block_motion);
   void ChangeWorkOffset(const Word& word, State& state);
   void ChangeModalCall(const Word& word, State& state) const;
+  void FindModalPrograms();
   void FindEntries(const ModalOptions& options);
+  /// Walks the programs from the callers down; those that nothing enters start with `sub_entry`, or wait.
+  void EnterAll(const State* sub_entry);
   void Enter(ProgramId program, const State& state);
 
   const Module& module_;
@@ -92,9 +97,11 @@ class ModalFlow {
   std::unordered_map<std::uint32_t, std::uint16_t> work_offset_index_;
   std::vector<State> before_;  // per block; first relative to the entry of its program, then absolute
   std::vector<State> at_;
-  std::vector<Summary> summaries_;  // per program
-  std::vector<State> entries_;      // per program, absolute
-  bool absolute_ = false;           // second pass: callees are entered
+  std::vector<Summary> summaries_;         // per program
+  std::vector<State> entries_;             // per program, absolute
+  std::vector<ProgramId> modal_programs_;  // that some modal call of the module names
+  bool entered_anew_ = false;              // an entry has grown in this sweep
+  bool absolute_ = false;                  // second pass: callees are entered
   bool entries_changed_ = false;
   State computed_;  // unknown where a computed G code may change the group, else kSame
 };

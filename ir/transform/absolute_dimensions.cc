@@ -70,6 +70,8 @@ class Pass {
   void Flow();
   /// Positions behind a block that is reached with `in`.
   void Through(BlockId block, Positions& positions, bool emit);
+  /// The block moves and a modal call may be active: its program runs behind the block.
+  [[nodiscard]] bool TriggersModal(ProgramId program, BlockId block) const;
   bool Join(BlockId block, Positions& at, const Positions& from);
 
   // Values.
@@ -108,6 +110,7 @@ class Pass {
   analysis::CallGraph calls_;
   analysis::ModalFlow flow_;
   std::vector<Effects> effects_;  // per program
+  Effects modal_;                 // of the programs that modal calls run
 
   // Of the program at hand.
   ProgramId program_;
@@ -167,14 +170,33 @@ void Pass::Unknown(BlockId block, const Word& word, std::uint8_t axis) {
       .help = "program the axis once with an absolute word before the increment, on every way that leads here";
 }
 
+bool Pass::TriggersModal(ProgramId program, BlockId id) const {
+  if (!flow_.ModalCallPossible(program, id)) return false;
+  for (const WordId word : module_.blocks[id].words) {
+    if (DefaultPhaseOf(module_.words[word].op) == Phase::kMotion) return true;
+  }
+  return false;
+}
+
 void Pass::FindEffects() {
   effects_.assign(module_.programs.Size(), {});
   bool changed = true;
   while (changed) {
     changed = false;
+    for (const Word& word : module_.words.All()) {
+      if (word.op != WordOp::kModalCall || !word.Extra<CallId>().Valid()) continue;
+      const ProgramId runs = module_.calls[word.Extra<CallId>()].program;
+      const Effects below = runs.Valid() ? effects_[runs.value] : Effects{0xFFFF, true};
+      modal_.axes = static_cast<std::uint16_t>(modal_.axes | below.axes);
+      modal_.writes_shared = modal_.writes_shared || below.writes_shared;
+    }
     for (const ProgramId program : module_.programs.Ids()) {
       Effects now = effects_[program.value];
       for (const BlockId block : module_.programs[program].blocks) {
+        if (TriggersModal(program, block)) {
+          now.axes = static_cast<std::uint16_t>(now.axes | modal_.axes);
+          now.writes_shared = now.writes_shared || modal_.writes_shared;
+        }
         for (const WordId id : module_.blocks[block].words) {
           const Word& word = module_.words[id];
           if (word.op == WordOp::kAxis) now.axes = static_cast<std::uint16_t>(now.axes | (1U << word.index));
@@ -480,6 +502,14 @@ void Pass::Through(BlockId id, Positions& positions, bool emit) {
       continue;
     }
     if (carry_live_[index] >> axis & 1U) Save(id, axis, position, false, emit);
+  }
+  if (!TriggersModal(program_, id)) return;
+  // The program of the modal call moves on from there, and may change what a sum reads.
+  for (std::uint8_t axis = 0; axis < kMaxAxes; ++axis) {
+    Position& position = positions[axis];
+    const bool moved = (modal_.axes >> axis & 1U) != 0;
+    const bool changed = modal_.writes_shared && position.kind == Position::Kind::kKnown && ReadsShared(position.form);
+    if (position.kind != Position::Kind::kNoWay && (moved || changed)) position = {Position::Kind::kUnknown, {}};
   }
 }
 

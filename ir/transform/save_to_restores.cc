@@ -50,7 +50,9 @@ class Pass {
       Restore(program);
       if (inside_[program.value]) RestoreInside(program);
     }
-    for (Program& program : module_.programs.All()) program.saves_modal_state = false;
+    // Those that put back what they found themselves still do: later passes may rely on it.
+    for (const ProgramId program : module_.programs.Ids())
+      module_.programs[program].saves_modal_state = inside_[program.value];
     return ok_;
   }
 

@@ -33,6 +33,22 @@ std::string NearTarget(const ir::Module& module, const ir::analysis::LabelTable&
   return std::string(NearName(TargetText(module, target), views));
 }
 
+bool CallsUnknown(const Subject& subject, ir::ProgramId program, std::string_view name) {
+  const ir::Module& module = subject.module;
+  for (const ir::analysis::CallSite& site : subject.calls.SitesOf(program)) {
+    if (site.callee.Valid()) continue;
+    for (const ir::WordId id : module.blocks[site.block].words) {
+      const ir::Word& word = module.words[id];
+      if (word.op != ir::WordOp::kCall) continue;
+      const auto call = word.Extra<ir::CallId>();
+      if (!module.calls.Contains(call) || !module.calls[call].name.Valid() || !module.calls[call].args.Empty())
+        continue;
+      if (subject.KeyOf(module.View(module.calls[call].name)) == subject.KeyOf(name)) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 std::string TargetText(const ir::Module& module, const ir::Target& target) {
@@ -49,6 +65,8 @@ void CheckLabels(const Subject& subject, ir::ProgramId program, diag::Sink& sink
       const std::string name = TargetText(module, use.target);
       // A block that was not understood has its finding; the jump to it needs none.
       if (subject.InRefusedBlock(program, name)) return;
+      // A block that is only this name is a label without its sign: as a call of no program it has its finding.
+      if (CallsUnknown(subject, program, name)) return;
       diag::Diagnostic& finding = sink.Report(diag::Code::kUnknownLabel, subject.PlaceOf(block, use.word), name);
       finding.control = dialects::AlarmFor(subject.profile, finding.code);
       const BlockId elsewhere = labels.Find(use.target, block, Search::kForwardThenFromStart);

@@ -53,9 +53,10 @@ void CheckUnusedLabels(const Subject& subject, ir::ProgramId program, diag::Sink
   for (const ir::ProgramId other : module.programs.Ids()) {
     if (subject.graphs.ReturnsToTarget(other)) return;
   }
-  // A jump that finds nothing may be meant for one of them.
+  // A jump that finds nothing, or a block that was not understood, may be meant for one of them.
   bool missing = false;
   for (const ir::BlockId block : module.programs[program].blocks) {
+    missing = missing || (module.blocks[block].flags & ir::Block::kRefused) != 0;
     ForEachTarget(module, module.blocks[block], [&](const TargetUse& use) {
       missing = missing || (IsWritten(use.target) &&
                             !subject.graphs.LabelsOf(program).Find(use.target, block, use.search).Valid());

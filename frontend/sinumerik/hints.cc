@@ -9,6 +9,7 @@
 #include "dialects/sinumerik/words.h"
 #include "frontend/common/chars.h"
 #include "frontend/sinumerik/token_kind.h"
+#include "frontend/sinumerik/word_slips.h"
 
 namespace ncport::frontend::sinumerik {
 
@@ -18,31 +19,6 @@ using diag::Code;
 using K = TokenKind;
 namespace words = dialects::sinumerik;
 
-/// Words of other languages that people write here, and what this one has instead.
-struct ForeignWord {
-  std::string_view text;
-  const char* help;
-};
-constexpr ForeignWord kForeignWords[] = {
-    {"THEN", "there is no THEN: what depends on the condition stands in the next blocks, up to ENDIF"},
-    {"ELSEIF", "there is no ELSEIF: write ELSE and a further IF with its own ENDIF"},
-    {"ELSIF", "there is no ELSIF: write ELSE and a further IF with its own ENDIF"},
-    {"BREAK", "there is no BREAK: jump behind the loop with GOTOF"},
-    {"CONTINUE", "there is no CONTINUE: jump to the end of the loop with GOTOF"},
-    {"NEXT", "there is no NEXT: FOR ends with ENDFOR"},
-    {"WEND", "there is no WEND: WHILE ends with ENDWHILE"},
-    {"STEP", "there is no STEP: FOR counts by one; other steps need WHILE"},
-    {"DOWNTO", "there is no DOWNTO: FOR counts up by one; other steps need WHILE"},
-    {"RETURN", "there is no RETURN: a subprogram ends with RET or M17"},
-};
-
-/// Words that begin or hold together a block, for misspelled ones.
-constexpr std::string_view kStatementWords[] = {
-    "DEF",   "DEFINE",  "PROC",  "EXTERN", "IF",     "ELSE",   "ENDIF", "WHILE", "ENDWHILE", "FOR",  "ENDFOR",
-    "LOOP",  "ENDLOOP", "UNTIL", "REPEAT", "GOTO",   "GOTOF",  "GOTOB", "GOTOC", "CASE",     "MSG",  "SETAL",
-    "MCALL", "CALL",    "RET",   "TRANS",  "ATRANS", "MIRROR", "ROT",   "SCALE", "STOPRE",   "SPOS", "LIMS",
-};
-
 class Hints {
  public:
   Hints(std::span<const Token> tokens, std::size_t at, std::string_view line, LineError& error, std::string& help)
@@ -50,8 +26,9 @@ class Hints {
 
   void Run() {
     // Each looks for one kind of slip; the first that fits has the word.
-    (void)(TornNumber() || TornName() || MissingType() || Comparison() || NoFunction() || NoBrackets() || Closer() ||
-           Gap() || MissingValue() || ForeignName() || Statement() || CommentMark());
+    (void)(TornNumber() || LettersInNumber() || NewName() || TornName() || MissingType() || Comparison() ||
+           NoFunction() || NoBrackets() || NoOperator() || Closer() || Gap() || SecondSign() || MissingValue() ||
+           ForeignName() || TornWord() || ColonOfLabel() || Statement() || InnerWord() || CommentMark());
     if (!help_.empty()) error_.help = help_.c_str();
   }
 
@@ -116,7 +93,45 @@ class Hints {
     const Token& before = tokens_[at_ - 1];
     if (before.End() != tokens_[at_].offset || !IsValue(Before())) return false;
     error_ = {.code = Code::kBadNumber, .begin = before.offset, .length = tokens_[at_].End() - before.offset};
+    if (Before() == K::kCell)
+      return Say("the number of an R parameter is whole; is a comma meant: {},{}?", TextOf(at_ - 1),
+                 TextOf(at_).substr(1));
     return Say("a number has one decimal point");
+  }
+
+  // `F2OO`, `=2OOO`: letters that stand for digits go on where the number ends.
+  bool LettersInNumber() {
+    std::size_t letters = at_;
+    if (error_.code == Code::kNotAlone) letters = TokenAt(error_.begin);
+    if (letters == 0 || letters >= tokens_.size()) return false;
+    const Token& before = tokens_[letters - 1];
+    const std::string_view text = TextOf(letters);
+    const bool number = KindAt(letters - 1) == K::kNumber || KindAt(letters - 1) == K::kAxisValue ||
+                        KindAt(letters - 1) == K::kAddressValue || KindAt(letters - 1) == K::kCell;
+    if (!number || before.End() != tokens_[letters].offset || !LooksLikeNumber(text)) return false;
+    const std::string_view whole = line_.substr(before.offset, tokens_[letters].End() - before.offset);
+    error_ = {.code = Code::kBadNumber, .begin = before.offset, .length = static_cast<std::uint32_t>(whole.size())};
+    return Say("did you mean {}{}?", TextOf(letters - 1), AsDigits(text));
+  }
+  [[nodiscard]] std::size_t TokenAt(std::uint32_t offset) const {
+    std::size_t token = 0;
+    while (token < tokens_.size() && tokens_[token].offset != offset) ++token;
+    return token;
+  }
+
+  // A word of the language, or a number, where a new name stands.
+  bool NewName() {
+    if (error_.code != Code::kExpectedText || error_.detail == nullptr || at_ >= tokens_.size() ||
+        std::string_view(error_.detail) != "a name")
+      return false;
+    const std::string_view text = TextOf(at_);
+    if (text.size() > 1 && std::all_of(text.begin(), text.end(), [](char c) { return IsLetter(c) || c == '_'; })) {
+      error_.code = Code::kReservedName;
+      error_.detail = nullptr;
+      return true;
+    }
+    if (Kind() == K::kComma) return Say("a name is missing in front of the comma");
+    return Say("a name begins with two letters, or with _ and a letter");
   }
 
   // `DEF INT A-B`, `DEF INT A B`: signs inside a name, or a comma that is missing.
@@ -124,6 +139,8 @@ class Hints {
     const K first = KindAt(First());
     if (first != K::kDef || Before() != K::kName || Holds(K::kEquals) || at_ >= tokens_.size()) return false;
     if (IsOperator(Kind())) return Say("a name holds letters, digits and _");
+    if (Kind() == K::kNumber || Kind() == K::kText || Kind() == K::kBoolean)
+      return Say("a start value stands behind =: {}={}", TextOf(at_ - 1), TextOf(at_));
     return StartsValue(Kind()) && Kind() != K::kLeftParen && Say("a comma stands between two names");
   }
 
@@ -148,6 +165,18 @@ class Hints {
 
   // `=` for `==` and the other way round; `=>`.
   bool Comparison() {
+    // `R2:=5`, `R2:5`: the sign of other languages; the colon makes a label.
+    const bool colon = at_ > 0 && (Before() == K::kLabel || Before() == K::kColon);
+    if (colon && Kind() == K::kEquals) {
+      error_ = {.code = Code::kUnexpectedText,
+                .begin = tokens_[at_].offset - 1,
+                .length = tokens_[at_].End() - tokens_[at_].offset + 1};
+      return Say("a value is set with = alone");
+    }
+    if (colon && Kind() == K::kNumber) {
+      const std::string_view name = TextOf(at_ - 1);
+      return Say("a value is set with =: {}={}", name.substr(0, name.find(':')), TextOf(at_));
+    }
     const bool condition = Holds(K::kIf) || Holds(K::kWhile) || Holds(K::kUntil) || Holds(K::kCase);
     if ((Kind() == K::kEquals && (Before() == K::kGreater || Before() == K::kLess)) ||
         ((Kind() == K::kGreater || Kind() == K::kLess) && Before() == K::kEquals)) {
@@ -177,6 +206,29 @@ class Hints {
   bool NoBrackets() {
     if (Before() != K::kFunction) return false;
     return Say("{} takes its argument in brackets: {}(..)", TextOf(at_ - 1), TextOf(at_ - 1));
+  }
+
+  // `(A+B)(C-D)`, `MSG "A"`, `$P_EP(X)`: brackets and what stands in front of them.
+  bool NoOperator() {
+    if (Kind() == K::kText && (Before() == K::kMessage || Before() == K::kSetAlarm))
+      return Say("{} takes its values in brackets: {}({})", TextOf(at_ - 1), TextOf(at_ - 1), TextOf(at_));
+    if (Before() == K::kMode && error_.code == Code::kExpectedText)
+      return Say("{} takes its value in brackets: {}(..)", TextOf(at_ - 1), TextOf(at_ - 1));
+    if (Kind() == K::kLeftParen && (Before() == K::kSystem || Before() == K::kCell))
+      return Say("an index stands in []");
+    if (Kind() == K::kLeftParen && (Before() == K::kRightParen || Before() == K::kNumber))
+      return Say("an operator is missing between {} and (", TextOf(at_ - 1));
+    if (Before() == K::kRightParen && Holds(K::kEquals) && (Kind() == K::kNumber || Kind() == K::kCell))
+      return Say("an operator is missing between ) and {}", TextOf(at_));
+    if (at_ > 1 && Before() == K::kCell && KindAt(at_ - 2) == K::kRightParen &&
+        tokens_[at_ - 2].End() == tokens_[at_ - 1].offset) {
+      Put(Code::kUnexpectedText, at_ - 1);
+      return Say("an operator is missing between ) and {}", TextOf(at_ - 1));
+    }
+    const bool number = Before() == K::kNumber || Before() == K::kAxisValue || Before() == K::kAddressValue;
+    return Kind() == K::kNumber && number && error_.code == Code::kUnexpectedText &&
+           tokens_[at_ - 1].End() < tokens_[at_].offset &&
+           Say("a number holds no blank; a word begins with its letter");
   }
 
   // `A[0)`, `(1]`: the innermost open bracket is of the other form.
@@ -241,6 +293,18 @@ class Hints {
     }
   }
 
+  // `Z--2`: two signs in front of a number.
+  bool SecondSign() {
+    if ((Kind() != K::kMinus && Kind() != K::kPlus) || at_ == 0 || tokens_[at_ - 1].End() != tokens_[at_].offset)
+      return false;
+    const K next = KindAt(at_ + 1);
+    if (Before() != K::kAxis && Before() != K::kAddress) return false;
+    error_.code = Code::kUnexpectedText;
+    error_.detail = nullptr;
+    return (next == K::kMinus || next == K::kPlus) ? Say("a number has one sign")
+                                                   : Say("a value that is computed stands behind =");
+  }
+
   // `X Y10`: an axis letter with neither a value nor `=`.
   bool MissingValue() {
     if (error_.code != Code::kExpectedText || Before() != K::kAxis || error_.detail == nullptr) return false;
@@ -253,12 +317,62 @@ class Hints {
   bool ForeignName() {
     for (const std::size_t token : {at_, at_ - 1}) {
       if (token >= tokens_.size() || (KindAt(token) != K::kName && KindAt(token) != K::kSubName)) continue;
-      for (const ForeignWord& word : kForeignWords) {
-        if (!IsWord(TextOf(token), word.text)) continue;
-        Put(Code::kUnknownWord, token);
-        return Say("{}", word.help);
-      }
+      const ForeignWord* foreign = FindForeignWord(TextOf(token));
+      if (foreign == nullptr) continue;
+      Put(Code::kUnknownWord, token);
+      return Say("{}", foreign->help);
     }
+    return false;
+  }
+
+  // `END IF`, `GOTO F`: one word, torn by a blank.
+  bool TornWord() {
+    const std::size_t first = First();
+    if (at_ != first + 1 || at_ >= tokens_.size() || KindAt(first) != K::kName || !IsWord(TextOf(first), "END"))
+      return false;
+    std::string_view meant;
+    switch (Kind()) {
+      case K::kIf:
+        meant = "ENDIF";
+        break;
+      case K::kWhile:
+        meant = "ENDWHILE";
+        break;
+      case K::kFor:
+        meant = "ENDFOR";
+        break;
+      case K::kLoop:
+        meant = "ENDLOOP";
+        break;
+      default:
+        return false;
+    }
+    error_ = {.code = Code::kUnknownWord,
+              .begin = tokens_[first].offset,
+              .length = tokens_[at_].End() - tokens_[first].offset};
+    return Say("{} is one word, without a blank", meant);
+  }
+
+  // `GOTOF NAME:`.
+  bool ColonOfLabel() {
+    if (Kind() != K::kColon || at_ < 2 || KindAt(at_ - 2) != K::kGoto) return false;
+    return Say("a jump names its label without the colon");
+  }
+
+  // A name inside of a block that is nearly a word: `ADN`, `GOTFO`.
+  bool InnerWord() {
+    for (const std::size_t token : {at_, at_ - 1}) {
+      if (token >= tokens_.size() || KindAt(token) != K::kName || token == First()) continue;
+      std::string_view near = NearInnerWord(TextOf(token));
+      if (near.empty() && error_.code == Code::kNotAlone) near = NearCodeWord(TextOf(token));
+      if (near.empty() || (token != at_ && error_.code != Code::kNotAlone && !IsOperator(Kind()))) continue;
+      Put(Code::kUnknownWord, token);
+      return Say("did you mean {}?", near);
+    }
+    if (error_.code == Code::kNotAlone && Kind() == K::kName && at_ + 1 == tokens_.size())
+      return Say(
+          "a name at the end of a block does nothing: a comment begins with ;, a subprogram call has a block of "
+          "its own, a variable is set with =");
     return false;
   }
 
@@ -277,13 +391,17 @@ class Hints {
       Put(Code::kUnknownWord, name);
       return Say("did you mean {}?", number);
     }
+    if (const std::string whole = AsAddressWithValue(text); !whole.empty()) {
+      Put(Code::kExpectedText, name, "=");
+      return Say("an address of several letters has its value behind =: {}", whole);
+    }
     if (text.size() > 2 && text.size() < 6 && (text[1] == 'R' || text[1] == 'r') && IsDigit(text[2])) {
       Put(Code::kExpectedText, name, "=");
       ++error_.begin;
       --error_.length;
       return Say("an address and an expression are written with =: {}={}", text.substr(0, 1), text.substr(1));
     }
-    if (const std::string_view near = NearName(text, kStatementWords); !near.empty()) {
+    if (const std::string_view near = NearStatementWord(text); !near.empty()) {
       Put(Code::kUnknownWord, name);
       return Say("did you mean {}?", near);
     }
@@ -293,26 +411,6 @@ class Hints {
       return Say("a label ends with a colon: {}:", text);
     }
     return false;
-  }
-
-  // `Xl0`, `G0lX`: letters for digits. Empty: no such word.
-  static std::string AsNumberWord(std::string_view text) {
-    std::string word(text.substr(0, 1));
-    bool digit = text.size() == 2;  // GO for G0
-    bool changed = false;
-    for (const char c : text.substr(1)) {
-      const char upper = Upper(c);
-      digit = digit || IsDigit(c);
-      if (IsDigit(c) || c == '.') {
-        word += c;
-      } else if (upper == 'O' || upper == 'L' || upper == 'I') {
-        word += upper == 'O' ? '0' : '1';
-        changed = true;
-      } else {
-        return {};
-      }
-    }
-    return digit && changed ? word : std::string();
   }
 
   bool CommentMark() {
@@ -340,7 +438,24 @@ void ExplainWord(std::string_view line, LineError& error, std::string& help) {
   if (error.begin >= line.size() || error.help != nullptr) return;
   const char c = Upper(line[error.begin]);
   const std::string_view behind = line.substr(error.begin + 1);
-  if (error.code == Code::kUnknownAddress && c == 'O' && error.begin > 0 && IsDigit(line[error.begin - 1])) {
+  const auto digit_at = [&](std::size_t i) { return i < line.size() && IsDigit(line[i]); };
+  const std::size_t next = error.begin + 1;
+  if (error.code == Code::kUnknownAddress && c == 'E' && error.begin > 0 && digit_at(error.begin - 1) &&
+      (digit_at(next) || (next < line.size() && (line[next] == '-' || line[next] == '+') && digit_at(next + 1)))) {
+    // `2.5E-3`.
+    std::size_t begin = error.begin;
+    while (begin > 0 && (IsDigit(line[begin - 1]) || line[begin - 1] == '.')) --begin;
+    std::size_t end = next + 1;
+    while (digit_at(end)) ++end;
+    help = fmt::format("the exponent is written with EX: {}EX{}", line.substr(begin, error.begin - begin),
+                       line.substr(next, end - next));
+    error = {.code = Code::kBadNumber,
+             .begin = static_cast<std::uint32_t>(begin),
+             .length = static_cast<std::uint32_t>(end - begin)};
+  } else if (error.code == Code::kUnclosedBracket && behind.find(';') != std::string_view::npos &&
+             behind.find(line[error.begin] == '(' ? ')' : ']', behind.find(';')) != std::string_view::npos) {
+    help = "; begins a comment, so the closing bracket behind it does not count";
+  } else if (error.code == Code::kUnknownAddress && c == 'O' && error.begin > 0 && IsDigit(line[error.begin - 1])) {
     // `Y2O`: the letter O behind a digit.
     std::size_t begin = error.begin;
     while (begin > 0 && (IsDigit(line[begin - 1]) || line[begin - 1] == '.' || line[begin - 1] == '-')) --begin;

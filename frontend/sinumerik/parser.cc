@@ -90,8 +90,6 @@ Recipe BlockParser::Parse(std::span<const Token> tokens) {
       recipe.error.help = "a subprogram call has a block of its own; a variable is set with =";
     } else if (strategy.OnlyExpected() == Parser::Name && IsReserved(kind_at(at))) {
       recipe.error.code = diag::Code::kReservedName;
-    } else if (strategy.OnlyExpected() == Parser::Name && at < tokens.size()) {
-      recipe.error.help = "a name begins with two letters, or with _ and a letter";
     } else if (strategy.OnlyExpected() == Parser::Equals && at > 0 && at >= tokens.size() &&
                kind_at(at - 1) == TokenKind::kAxis) {
       recipe.error.code = diag::Code::kMissingValue;

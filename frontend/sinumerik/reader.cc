@@ -16,6 +16,7 @@
 #include "frontend/sinumerik/parser.h"
 #include "frontend/sinumerik/reader_state.h"
 #include "frontend/sinumerik/token_source.h"
+#include "frontend/sinumerik/word_slips.h"
 #include "ir/structure.h"
 
 namespace ncport::frontend::sinumerik {
@@ -248,6 +249,10 @@ class Reader {
     const std::span<const Token> tokens = source_.Tokens();
     if (source_.Error() != nullptr) {
       error_ = *source_.Error();
+      // `DEF REAL RND`: an address of several letters without `=`, where it was to be a name.
+      if (error_.code == Code::kMissingValue && error_.length > 1 && !tokens.empty() &&
+          static_cast<K>(tokens.front().kind) == K::kDef)
+        error_ = {.code = Code::kReservedName, .begin = error_.begin, .length = error_.length};
       ExplainWord(text, error_, help_);
       return &error_;
     }
@@ -261,6 +266,7 @@ class Reader {
                                        : Code::kNotSupported,
                 .begin = refused->offset,
                 .length = refused->length};
+      ExplainRefused(text.substr(refused->offset, refused->length));
       return &error_;
     }
     const Recipe& recipe = RecipeOf(tokens);
@@ -289,6 +295,25 @@ class Reader {
     }
     if (state_.definitions_open && !lowering_.OnlyDefinitions()) CloseDefinitions(block);
     return nullptr;
+  }
+
+  /// A word of the control that is more likely a slip: `Rl` for R1, DO behind WHILE.
+  void ExplainRefused(std::string_view word) {
+    const bool mixed = Upper(word[0]) == word[0] && word.size() > 1 && Upper(word[1]) != word[1];
+    if (const std::string number = AsNumberWord(word); mixed && !number.empty()) {
+      help_ = "did you mean " + number + "?";
+    } else if (source_.StructureWord() == K::kFor && IsWord(word, "DO")) {
+      error_.code = Code::kExpectedText;
+      error_.detail = "TO";
+      return;
+    } else if (const ForeignWord* foreign = FindForeignWord(word);
+               foreign != nullptr && source_.StructureWord() != K::kNone) {
+      help_ = foreign->help;
+    } else {
+      return;
+    }
+    error_.code = Code::kUnknownWord;
+    error_.help = help_.c_str();
   }
 
   /// The alarm that the control raises. It has one of its own for G codes; M codes go to the builder's part.

@@ -11,6 +11,7 @@
 #include "frontend/reader.h"
 #include "frontend/sinumerik/reader.h"
 #include "frontend/sinumerik/resolver.h"
+#include "frontend/sinumerik/word_slips.h"
 
 namespace ncport::frontend::sinumerik {
 
@@ -173,7 +174,8 @@ bool Resolver::UnknownName(ExprId id, std::string_view name) {
     if (record.owner == program_ || !record.owner.Valid()) known.push_back(module_.View(record.name));
   }
   std::sort(known.begin(), known.end());
-  const std::string_view near = NearName(name, known);
+  std::string_view near = NearName(name, known);
+  if (near.empty()) near = NearValueWord(name);
   finding.help = !near.empty() ? "did you mean " + std::string(near) + "?"
                                : "declare it with DEF, or give the definition file (.DEF) that holds it too";
   missing_names_.emplace(key, Missing{&finding});
@@ -196,6 +198,23 @@ void Resolver::CollectLabels(ir::ProgramId program) {
   for (const ir::BlockId id : module_.programs[program].blocks) {
     const StringId label = module_.blocks[id].label;
     if (label.Valid()) labels_.insert(UpperOf(module_.View(label)));
+  }
+  jump_names_.clear();
+  const auto add = [this](const ir::Target& target) {
+    if (target.kind != ir::TargetKind::kLabel || !target.label.Valid()) return;
+    const std::string name = UpperOf(module_.View(target.label));
+    if (!labels_.contains(name)) jump_names_.insert(name);
+  };
+  for (const ir::BlockId id : module_.programs[program].blocks) {
+    for (const ir::WordId word_id : module_.blocks[id].words) {
+      const ir::Word& word = module_.words[word_id];
+      if (word.op == WordOp::kJump) add(module_.jumps[word.Extra<ir::JumpId>()].target);
+      if (word.op == WordOp::kRepeatPart) add(module_.parts[word.Extra<ir::PartId>()].first);
+      if (word.op != WordOp::kSwitch) continue;
+      const ir::Switch& record = module_.switches[word.Extra<ir::SwitchId>()];
+      for (std::uint32_t i = 0; i < record.arm_count; ++i)
+        add(module_.jumps[module_.switch_arms[record.first_arm + i].jump].target);
+    }
   }
 }
 
@@ -252,6 +271,7 @@ void Resolver::Block(ir::BlockId id) {
     module_.words[word_id] = word;
     if (!ok) break;
   }
+  ok = ok && (module_.programs[program_].library || BlockRules(module_.blocks[id]));
   if (!ok) Refuse(module_.blocks[id]);
 }
 

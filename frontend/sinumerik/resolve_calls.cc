@@ -9,6 +9,7 @@
 #include "frontend/sinumerik/reader.h"
 #include "frontend/sinumerik/resolve.h"
 #include "frontend/sinumerik/resolver.h"
+#include "frontend/sinumerik/word_slips.h"
 
 namespace ncport::frontend::sinumerik {
 
@@ -38,6 +39,10 @@ bool Resolver::Call(ir::Word& word) {
   const ir::CallId id = word.Extra<ir::CallId>();
   ir::Call call = module_.calls[id];
   if (call.passes.Valid() && !Converted(call.passes, Type::kInt)) return false;
+  // Card 10, row 33.
+  if (call.passes.Valid() && module_.exprs[call.passes].op == ExprOp::kLiteral &&
+      (module_.exprs[call.passes].number < 1 || module_.exprs[call.passes].number > 9999))
+    return Fail(Code::kOutOfRange, call.passes, module_.exprs[call.passes].number, "1 to 9999 passes");
   if (word.op == ir::WordOp::kWorkpiece) {
     for (const ir::ArgId arg : call.args) {
       if (module_.args[arg].value.Valid() && !Scalar(module_.args[arg].value)) return false;
@@ -118,14 +123,27 @@ void Resolver::UnknownProgram(std::string_view name, const SourceRange& at) {
     finding.help = "a cycle of the control that ncport does not know; what it does is not looked at";
     return;
   }
+  if (const ForeignWord* foreign = FindForeignWord(name)) {
+    finding.help = foreign->help;
+    return;
+  }
   std::vector<std::string_view> known;
   for (const ir::Program& program : module_.programs.All()) {
     if (!program.library) known.push_back(module_.View(program.name));
   }
   for (const std::string_view cycle : dialects::sinumerik::LibraryCycleNames()) known.push_back(cycle);
   const std::string_view near = NearName(name, known);
-  finding.help =
-      near.empty() ? "give its file too, or name its folder with -I" : "did you mean " + std::string(near) + "?";
+  if (!near.empty()) {
+    finding.help = "did you mean " + std::string(near) + "?";
+  } else if (jump_names_.contains(UpperOf(name))) {
+    finding.help = "jumps name it: a label ends with a colon: " + std::string(name) + ":";
+  } else if (const std::string whole = AsAddressWithValue(name); !whole.empty()) {
+    finding.help = "an address of several letters has its value behind =: " + whole;
+  } else if (const std::string_view word = NearStatementWord(name); !word.empty()) {
+    finding.help = "did you mean " + std::string(word) + "?";
+  } else {
+    finding.help = "give its file too, or name its folder with -I";
+  }
 }
 
 // The EXTERN of a program that is not here says what it takes.

@@ -47,8 +47,9 @@ std::string_view Article(Type type) {
 
 }  // namespace
 
-bool Resolver::Mismatch(ExprId id, std::string_view what, std::string_view needed) {
-  return Fail(Code::kTypeMismatch, id, what, needed);
+bool Resolver::Mismatch(ExprId id, std::string_view what, std::string_view needed, std::string_view help) {
+  sink_.Report(Code::kTypeMismatch, module_.RangeOf(module_.blocks[block_], id), what, needed).help = help;
+  return false;
 }
 
 bool Resolver::Name(ExprId id) {
@@ -182,7 +183,8 @@ bool Resolver::Operation(ExprId id) {
                          (left == Type::kChar && right == Type::kString);
       const bool any = left == Type::kAny || right == Type::kAny;
       if (!texts && !any && left != right && !(IsNumeric(left) && IsNumeric(right))) {
-        return Mismatch(b, Article(right), Article(left));
+        const bool less = left == Type::kString && (expr.op == ExprOp::kLess || expr.op == ExprOp::kLessEqual);
+        return Mismatch(b, Article(right), Article(left), less ? "a text goes on with <<" : "");
       }
       return set(Type::kBool);
     }

@@ -45,6 +45,12 @@ class Resolver {
   [[nodiscard]] ir::VariableId FindVariable(std::string_view name) const;
   [[nodiscard]] bool FindAxis(std::string_view name, std::uint8_t& axis) const;
 
+  // What words of one block do to each other (resolve_blocks.cc). False after an error.
+  bool BlockRules(const ir::Block& block);
+  bool OwnBlock(const ir::Block& block);
+  bool PolarBesideAxis(const ir::Block& block);
+  bool Limit(const ir::Word& word, double low, double high, std::string_view range);
+
   // Calls (resolve_calls.cc).
   bool Call(ir::Word& word);
   bool Arguments(const ir::Call& call, const ir::Word& word);
@@ -64,7 +70,7 @@ class Resolver {
   /// Expr, then converted to the type where the value changes by it; a finding where no conversion exists.
   bool Converted(ir::ExprId& id, ir::Type type);
   bool Fits(ir::ExprId& id, ir::Type type);  // as Converted, of a resolved expression
-  bool Mismatch(ir::ExprId id, std::string_view what, std::string_view needed);
+  bool Mismatch(ir::ExprId id, std::string_view what, std::string_view needed, std::string_view help = {});
 
   template <class... Args>
   bool Fail(diag::Code code, ir::ExprId at, const Args&... args) {
@@ -85,6 +91,7 @@ class Resolver {
   std::size_t indexed_variables_ = 0;
   std::unordered_map<std::string, ir::VariableId> variables_;  // "<owner>:<NAME>"; owner empty: visible everywhere
   std::unordered_set<std::string> labels_;                     // of program_, upper case
+  std::unordered_set<std::string> jump_names_;                 // that jumps of program_ look for and no label bears
   std::unordered_set<std::string> refused_names_;              // words of definitions that were not understood
   struct Missing {
     diag::Diagnostic* finding;

@@ -1,0 +1,111 @@
+#include "frontend/sinumerik/word_slips.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "base/near_name.h"
+#include "dialects/sinumerik/words.h"
+#include "frontend/common/chars.h"
+
+namespace ncport::frontend::sinumerik {
+
+namespace {
+
+namespace words = dialects::sinumerik;
+
+constexpr ForeignWord kForeignWords[] = {
+    {"THEN", "there is no THEN: what depends on the condition stands in the next blocks, up to ENDIF"},
+    {"ELSEIF", "there is no ELSEIF: write ELSE and a further IF with its own ENDIF"},
+    {"ELSIF", "there is no ELSIF: write ELSE and a further IF with its own ENDIF"},
+    {"BREAK", "there is no BREAK: jump behind the loop with GOTOF"},
+    {"CONTINUE", "there is no CONTINUE: jump to the end of the loop with GOTOF"},
+    {"NEXT", "there is no NEXT: FOR ends with ENDFOR", "ENDFOR"},
+    {"WEND", "there is no WEND: WHILE ends with ENDWHILE", "ENDWHILE"},
+    {"STEP", "there is no STEP: FOR counts by one; other steps need WHILE"},
+    {"DO", "there is no DO here: the body of a loop begins in the next block"},
+    {"DOWNTO", "there is no DOWNTO: FOR counts up by one; other steps need WHILE"},
+    {"RETURN", "there is no RETURN: a subprogram ends with RET or M17"},
+};
+
+/// Words that begin or hold together a block.
+constexpr std::string_view kStatementWords[] = {
+    "DEF",    "DEFINE", "PROC",    "EXTERN", "IF",     "ELSE",  "ENDIF",  "WHILE",   "ENDWHILE", "FOR",
+    "ENDFOR", "LOOP",   "ENDLOOP", "UNTIL",  "REPEAT", "GOTOF", "GOTOB",  "GOTO",    "GOTOC",    "CASE",
+    "MSG",    "SETAL",  "MCALL",   "CALL",   "RET",    "TRANS", "ATRANS", "MIRROR",  "ROT",      "AROT",
+    "SCALE",  "SPOS",   "LIMS",    "SUPA",   "STOPRE", "PCALL", "ASCALE", "AMIRROR",
+};
+
+constexpr std::string_view kInnerWords[] = {
+    "GOTOF", "GOTOB", "GOTO",  "GOTOC", "AND", "OR",   "XOR",   "NOT",  "DIV",     "MOD",  "B_AND",
+    "B_OR",  "B_XOR", "B_NOT", "TO",    "OF",  "TRUE", "FALSE", "CASE", "DEFAULT", "TURN",
+};
+
+}  // namespace
+
+const ForeignWord* FindForeignWord(std::string_view word) {
+  for (const ForeignWord& foreign : kForeignWords) {
+    if (IsWord(word, foreign.text)) return &foreign;
+  }
+  return nullptr;
+}
+
+std::string_view NearStatementWord(std::string_view word) {
+  const std::string_view near = NearName(word, kStatementWords);
+  return near.empty() ? NearCodeWord(word) : near;
+}
+
+std::string_view NearCodeWord(std::string_view word) {
+  std::vector<std::string_view> known;
+  for (const auto& row : words::Codes().Rows()) {
+    if (row.text.size() > 3 && IsLetter(row.text[1])) known.push_back(row.text);
+  }
+  return NearName(word, known);
+}
+
+std::string_view NearInnerWord(std::string_view word) { return NearName(word, kInnerWords); }
+
+std::string_view NearValueWord(std::string_view word) {
+  std::vector<std::string_view> known{"TRUE", "FALSE"};
+  for (const auto& row : words::Functions()) known.push_back(row.text);
+  return NearName(word, known);
+}
+
+bool LooksLikeNumber(std::string_view word) {
+  return !word.empty() && std::all_of(word.begin(), word.end(), [](char c) {
+    const char upper = Upper(c);
+    return IsDigit(c) || c == '.' || upper == 'O' || upper == 'I' || upper == 'L';
+  });
+}
+
+std::string AsDigits(std::string_view word) {
+  std::string digits;
+  for (const char c : word) {
+    const char upper = Upper(c);
+    digits += upper == 'O' ? '0' : upper == 'I' || upper == 'L' ? '1' : c;
+  }
+  return digits;
+}
+
+std::string AsNumberWord(std::string_view word) {
+  if (word.size() < 2 || !LooksLikeNumber(word.substr(1))) return {};
+  const std::string digits = AsDigits(word.substr(1));
+  // GO for G0, and more letters only where a digit stands among them.
+  const bool digit = word.size() == 2 || std::any_of(word.begin() + 1, word.end(), IsDigit);
+  return digit && digits != word.substr(1) ? std::string(1, word[0]) + digits : std::string();
+}
+
+std::string AsAddressWithValue(std::string_view word) {
+  std::size_t letters = 0;
+  while (letters < word.size() && (IsLetter(word[letters]) || word[letters] == '_')) ++letters;
+  if (letters < 2 || letters == word.size()) return {};
+  for (std::size_t i = letters; i < word.size(); ++i) {
+    if (!IsDigit(word[i]) && word[i] != '.' && word[i] != '-') return {};
+  }
+  for (const auto& row : words::Addresses()) {
+    if (IsWord(word.substr(0, letters), row.text))
+      return std::string(word.substr(0, letters)) + "=" + std::string(word.substr(letters));
+  }
+  return {};
+}
+
+}  // namespace ncport::frontend::sinumerik

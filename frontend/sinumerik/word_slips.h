@@ -1,0 +1,37 @@
+// What a wrong word was probably meant to be. Texts in, texts out: nothing here decides whether a block is right.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace ncport::frontend::sinumerik {
+
+/// A word of another language and what this one has instead.
+struct ForeignWord {
+  std::string_view text;
+  const char* help;
+  std::string_view instead = {};  // the word that takes its place, if there is one
+};
+/// THEN, BREAK, NEXT ..; null for other words.
+const ForeignWord* FindForeignWord(std::string_view word);
+
+/// A word that begins a block, spelled nearly so, or nothing.
+std::string_view NearStatementWord(std::string_view word);
+/// A code with a name (DIAMON, BRISK), spelled nearly so, or nothing.
+std::string_view NearCodeWord(std::string_view word);
+/// A word that stands inside of blocks (AND, TO, GOTOF) or a function, spelled nearly so, or nothing.
+std::string_view NearInnerWord(std::string_view word);
+/// TRUE, FALSE or a function, spelled nearly so, or nothing.
+std::string_view NearValueWord(std::string_view word);
+
+/// `Xl0`, `GO`, `Rl`: letters for digits, written with digits. Empty: no such word.
+std::string AsNumberWord(std::string_view word);
+/// True if the word holds digits and the letters O, I, L only: `2OO`, `1O`, `OO`.
+bool LooksLikeNumber(std::string_view word);
+/// The same with digits only.
+std::string AsDigits(std::string_view word);
+
+/// `SPOS90`, `CR5`: an address of several letters and its value, written with `=`. Empty: no such word.
+std::string AsAddressWithValue(std::string_view word);
+
+}  // namespace ncport::frontend::sinumerik

@@ -1,0 +1,58 @@
+// What words of one block do to each other: blocks that are refused and blocks that are not.
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "read_helper.h"
+
+namespace ncport::frontend::sinumerik {
+
+namespace {
+
+std::string Findings(std::string_view text) {
+  ReadResult result;
+  ReadInto(result, text);
+  return result.Findings();
+}
+
+}  // namespace
+
+TEST_CASE("frame words stand without motion words") {
+  CHECK(Findings("G0 TRANS X10\n") == "NC1022 1:4 TRANS must stand alone in its block\n");
+  CHECK(Findings("AROT Z5 G1\n") == "NC1022 1:1 AROT must stand alone in its block\n");
+  CHECK(Findings("MIRROR X0 G2\n") == "NC1022 1:1 MIRROR must stand alone in its block\n");
+  CHECK(Findings("TRANS X10\n").empty());
+  CHECK(Findings("N10 ATRANS X10 Y=R1 ; shift\n").empty());
+  CHECK(Findings("TRANS\nG0 X1\n").empty());
+}
+
+TEST_CASE("polar words stand beside the third axis only") {
+  CHECK(Findings("G0 X5 Y2 AP=30 RP=10\n") == "NC1013 1:7 RP=10 and Y2 exclude each other in one block\n");
+  CHECK(Findings("G0 AP=30 X5 Z2\n") == "NC1013 1:13 AP=30 and Z2 exclude each other in one block\n");
+  CHECK(Findings("G1 RP=30 Y5 Z2\n") == "NC1013 1:13 RP=30 and Z2 exclude each other in one block\n");
+  CHECK(Findings("G0 AP=30 RP=10\n").empty());
+  CHECK(Findings("G0 AP=30 RP=10 Z5\n").empty());
+  CHECK(Findings("G18\nG0 AP=30 RP=10 Y5\n").empty());
+}
+
+TEST_CASE("values of words have a range") {
+  CHECK(Findings("G2 I5 AR=400\n") == "NC2005 1:10 400 is outside 0 to 360\n");
+  CHECK(Findings("G1 X5 RND=-2\n") == "NC2005 1:11 -2 is outside 0 and above\n");
+  CHECK(Findings("G1 X5 CHF=(-2)\n") == "NC2005 1:11 -2 is outside 0 and above\n");
+  CHECK(Findings("G1 AP=5 RP=-1\n") == "NC2005 1:12 -1 is outside 0 and above\n");
+  CHECK(Findings("G2 I5 AR=360\n").empty());
+  CHECK(Findings("G1 X5 RND=0\n").empty());
+  CHECK(Findings("G1 X5 RND=R1-2\n").empty());
+}
+
+TEST_CASE("passes are 1 to 9999") {
+  const std::string sub = "M30\n%_N_L77_SPF\nG0 X1\nM17\n";
+  CHECK(Findings("%_N_A_MPF\nL77 P0\n" + sub) == "NC2005 2:5 0 is outside 1 to 9999 passes\n");
+  CHECK(Findings("%_N_A_MPF\nL77 P10000\n" + sub) == "NC2005 2:5 10000 is outside 1 to 9999 passes\n");
+  CHECK(Findings("%_N_A_MPF\nL77 P=0\n" + sub) == "NC2005 2:7 0 is outside 1 to 9999 passes\n");
+  CHECK(Findings("%_N_A_MPF\nL77 P1\n" + sub).empty());
+  CHECK(Findings("%_N_A_MPF\nL77 P9999\n" + sub).empty());
+  CHECK(Findings("%_N_A_MPF\nL77 P=R1\n" + sub).empty());
+}
+
+}  // namespace ncport::frontend::sinumerik

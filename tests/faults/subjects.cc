@@ -1,0 +1,335 @@
+#include "tests/faults/subjects.h"
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "app/comparison.h"
+#include "app/ncport.h"
+#include "base/diag/codes.h"
+#include "dialects/machine.h"
+#include "tests/faults/seam.h"
+#include "tests/tools/process.h"
+#include "tests/tools/trace_compare.h"
+#include "tests/tools/vectors.h"
+
+namespace ncport::tests::faults {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::uint64_t kMostBlocks = 300'000;
+
+/// The called programs stand beside the main program.
+FileProvider Beside(const fs::path& program) {
+  return [folder = program.parent_path()](std::string_view name) -> std::optional<Input> {
+    std::string lower(name);
+    std::ranges::transform(lower, lower.begin(), [](char c) { return static_cast<char>(std::tolower(c)); });
+    for (const std::string& base : {std::string(name), lower}) {
+      for (const char* ending : {"", ".spf", ".mpf", ".SPF", ".MPF", ".nc"}) {
+        const fs::path path = folder / (base + ending);
+        if (fs::is_regular_file(path)) return Input{path.string(), ReadFileOrDie(path.string())};
+      }
+    }
+    return std::nullopt;
+  };
+}
+
+void Settle(const Job& job, RunSettings& settings) {
+  settings.from = job.from;
+  settings.set = job.set;
+  settings.start = job.start;
+  settings.call = job.call;
+  settings.max_blocks = kMostBlocks;
+  settings.find = Beside(job.program);
+}
+
+std::vector<Input> InputsOf(const Job& job) {
+  return {Input{job.program.string(), ReadFileOrDie(job.program.string())}};
+}
+
+std::string FirstError(const diag::Sink& sink) {
+  for (const diag::Diagnostic& finding : sink.All()) {
+    if (finding.severity == diag::Severity::kError)
+      return std::string(diag::InfoOf(finding.code).number) + " " + finding.message;
+  }
+  return "no finding";
+}
+
+/// Takes the options of a command line that a job can have.
+void TakeOptions(const std::vector<std::string>& words, const fs::path& folder, Job& job) {
+  const auto in_folder = [&](const std::string& name) {
+    return fs::exists(folder / name) ? (folder / name).string() : name;
+  };
+  for (std::size_t i = 0; i + 1 < words.size(); ++i) {
+    const std::string& value = words[i + 1];
+    if (words[i] == "--from") job.from = in_folder(value);
+    if (words[i] == "--to") job.to = in_folder(value);
+    if (words[i] == "--start") job.start = value;
+    if (words[i] == "--set") job.set.push_back(value);
+    if (words[i] == "--call") job.call = value;
+    if (words[i] == "--config") job.config = in_folder(value);
+  }
+}
+
+void AddVectors(const fs::path& root, Jobs& jobs) {
+  for (const Vector& vector : ListVectors(root / "tests/vectors")) {
+    if (vector.open || vector.options.empty()) continue;
+    Job job;
+    job.name = vector.name;
+    job.program = vector.program;
+    TakeOptions(vector.options, vector.program.parent_path(), job);
+    Job read = job;
+    read.expected = vector.expected_text;
+    read.alarms = vector.ExpectsAlarm();
+    jobs.read.push_back(read);
+    std::vector<std::string> targets;
+    const bool lathe = job.from.find("lathe") != std::string::npos;
+    if (vector.language == "sinumerik") {
+      targets = {"fanuc-mill", "fanuc-lathe-a", "fanuc-lathe-b", (root / "tests/port/qtn.toml").string(),
+                 lathe ? "sinumerik-840d-lathe" : "sinumerik-840d-mill"};
+    } else if (vector.language == "fanuc") {
+      targets = {lathe ? "sinumerik-840d-lathe" : "sinumerik-840d-mill"};
+    }
+    targets.emplace_back(lathe ? "iso-lathe" : "iso-mill");
+    for (const std::string& target : targets) {
+      Job write = job;
+      write.to = target;
+      jobs.write.push_back(write);
+    }
+  }
+}
+
+void AddSamples(const fs::path& root, Jobs& jobs) {
+  const auto add = [&](const std::string& program, const std::string& from, const std::vector<std::string>& targets) {
+    for (const std::string& target : targets) {
+      const fs::path folder = (root / "samples" / program).parent_path();
+      Job job{"samples/" + program, root / "samples" / program, from, target};
+      if (fs::exists(folder / target)) job.to = (folder / target).string();
+      if (fs::exists(folder / "ncport.toml")) job.config = (folder / "ncport.toml").string();
+      jobs.write.push_back(job);
+    }
+  };
+  const std::vector<std::string> mills{"fanuc-mill", "mazak-mill", "haas-mill", "iso-mill"};
+  add("bolt_circle/main.mpf", "sinumerik-840d-mill", mills);
+  add("r_parameters/main.mpf", "sinumerik-840d-mill", mills);
+  add("turning_cycle/main.mpf", "sinumerik-840d-lathe", {"qtn.toml", "integrex.toml", "iso-lathe"});
+  add("bolt_circle_macro/bolt_circle.nc", "fanuc-mill", {"sinumerik-840d-mill", "iso-mill"});
+}
+
+/// Unpacks a golden case and lists its commands.
+void AddGolden(const fs::path& file, const fs::path& scratch, Jobs& jobs) {
+  const fs::path folder = scratch / file.stem();
+  fs::create_directories(folder);
+  std::istringstream lines(ReadFileOrDie(file.string()));
+  std::vector<std::string> commands;
+  std::ofstream out;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("=== ")) {
+      out = std::ofstream();
+      if (line.starts_with("=== run: ")) commands.push_back(line.substr(9));
+      if (line.starts_with("=== file: ")) {
+        const fs::path path = folder / line.substr(10);
+        fs::create_directories(path.parent_path());
+        out.open(path);
+      }
+    } else if (out.is_open()) {
+      out << line << '\n';
+    }
+  }
+  out = std::ofstream();
+  for (const std::string& command : commands) {
+    std::istringstream stream(command);
+    std::vector<std::string> words;
+    for (std::string word; stream >> word;) words.push_back(word);
+    if (words.size() < 2 || (words[0] != "translate" && words[0] != "flatten")) continue;
+    Job job;
+    job.name = "golden/" + words[0] + "/" + file.stem().string();
+    job.program = folder / words[1];
+    TakeOptions(words, folder, job);
+    if (job.config.empty() && fs::exists(folder / "ncport.toml")) job.config = (folder / "ncport.toml").string();
+    if (!job.to.empty() && !job.from.empty() && fs::is_regular_file(job.program)) jobs.write.push_back(job);
+  }
+}
+
+/// programs/: each has lines `; faults: OPTIONS` or `(FAULTS: OPTIONS)` at its head, one for each use, and may have a
+/// trace beside it in NAME.expected, compared for each line without --to.
+void AddOwn(const fs::path& folder, Jobs& jobs) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path());
+  std::ranges::sort(files);
+  for (const fs::path& path : files) {
+    std::istringstream lines(ReadFileOrDie(path.string()));
+    for (std::string line; std::getline(lines, line);) {
+      static constexpr std::string_view kMarks[] = {"; faults: ", "(FAULTS: "};
+      for (const std::string_view mark : kMarks) {
+        const std::size_t at = line.find(mark);
+        if (at == std::string::npos) continue;
+        std::string options = line.substr(at + mark.size());
+        if (mark[0] == '(') {
+          options = options.substr(0, options.find(')'));
+          std::ranges::transform(options, options.begin(), [](char c) { return static_cast<char>(std::tolower(c)); });
+        }
+        std::istringstream stream(options);
+        std::vector<std::string> words;
+        for (std::string word; stream >> word;) words.push_back(word);
+        Job job;
+        job.name = "programs/" + path.filename().string();
+        job.program = path;
+        TakeOptions(words, folder, job);
+        if (!job.to.empty()) {
+          jobs.write.push_back(job);
+          continue;
+        }
+        fs::path expected = path;
+        job.expected = ReadFileOrDie(expected.replace_extension(".expected").string());
+        job.alarms = job.expected.find("\nALARM ") != std::string::npos;
+        jobs.read.push_back(job);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Jobs ListJobs(const fs::path& root, const fs::path& scratch) {
+  Jobs jobs;
+  AddOwn(root / "tests/faults/programs", jobs);
+  AddSamples(root, jobs);
+  for (const char* folder : {"tests/golden/translate", "tests/golden/flatten"}) {
+    for (const auto& entry : fs::directory_iterator(root / folder)) {
+      if (entry.path().extension() == ".case") AddGolden(entry.path(), scratch, jobs);
+    }
+  }
+  AddVectors(root, jobs);
+  return jobs;
+}
+
+std::string CheckTrace(const Job& job) {
+  Context context;
+  TraceOptions options;
+  Settle(job, options);
+  options.variables = true;
+  std::string text;
+  bool done = false;
+  {
+    OutputSink output(text);
+    done = ::ncport::Trace(context, InputsOf(job), options, output).Ok();
+  }
+  if (done == job.alarms) return "ends otherwise: " + FirstError(context.findings);
+  const ParsedTrace actual = ParseTrace(text), expected = ParseTrace(job.expected);
+  if (!actual.error.empty()) return actual.error;
+  return CompareVector(actual.trace, expected.trace).value_or("");
+}
+
+bool Subject::Prepare() {
+  context_ = std::make_unique<Context>();
+  auto target = dialects::LoadProfile(job_.to, context_->files, context_->findings);
+  if (!target.Ok()) return false;
+  target_ = *target;
+  flat_ = target_.language == dialects::Language::kIso;
+  if (!job_.config.empty()) {
+    auto config = dialects::LoadConfig(job_.config, context_->files, context_->findings);
+    if (!config.Ok()) return false;
+    all_config_ = *config;
+    config_ = all_config_.For(job_.to);
+  }
+  Now().asked.clear();
+  Now().taken.clear();
+  RunSettings settings;
+  Settle(job_, settings);
+  if (!app::ReadSet(*context_, InputsOf(job_), settings, app::ProfileNeed::kNamed, set_).Ok()) return false;
+  machine_ = dialects::MachineFor(set_.profile);
+  const auto run = app::RunOptionsFor(*context_, set_, settings);
+  if (!run.Ok()) return false;
+  entry_ = run->entry;
+  if (flat_) {
+    Context context;
+    TraceOptions options;
+    Settle(job_, options);
+    OutputSink output(source_trace_);
+    if (!::ncport::Trace(context, InputsOf(job_), options, output).Ok()) return false;
+  }
+  std::vector<backends::OutputFile> files;
+  backends::Translation translation;
+  if (!Write(text_, files, translation).empty()) return false;
+  asked = Now().asked;
+  taken = Now().taken;
+  compared_ = true;
+  const std::string found = Compare(text_, files, translation);
+  // Without inputs a branch that no run takes stays open: differences are found all the same.
+  compared_ = !found.starts_with("not compared");
+  prepared_ = found.empty() || (!flat_ && !compared_ && found.find("branch") != std::string::npos);
+  return prepared_;
+}
+
+std::string Subject::Write(std::string& text, std::vector<backends::OutputFile>& files,
+                           backends::Translation& translation) {
+  Context context;
+  text.clear();
+  if (flat_) {
+    FlattenOptions options;
+    Settle(job_, options);
+    options.to = job_.to;
+    options.config = &all_config_;
+    OutputSink output(text);
+    if (!Flatten(context, InputsOf(job_), options, output).Ok()) return "refused: " + FirstError(context.findings);
+    return {};
+  }
+  const backends::TranslateInput input{&set_.module, &set_.profile, &machine_, &target_, &config_};
+  if (!backends::Raise(input, translation, context.findings)) return "refused: " + FirstError(context.findings);
+  files = backends::Print(target_, translation, {});
+  for (const backends::OutputFile& file : files) text += file.name + "\n" + file.text;
+  return {};
+}
+
+std::string Subject::Compare(const std::string& text, const std::vector<backends::OutputFile>& files,
+                             const backends::Translation& translation) {
+  if (flat_) {
+    Context context;
+    TraceOptions options;
+    options.from = job_.to;
+    options.max_blocks = kMostBlocks;
+    std::string flat;
+    {
+      OutputSink output(flat);
+      if (!::ncport::Trace(context, {Input{"flat.nc", text}}, options, output).Ok())
+        return "the flat program: " + FirstError(context.findings);
+    }
+    ParsedTrace a = ParseTrace(source_trace_), b = ParseTrace(flat);
+    if (!a.error.empty() || !b.error.empty()) return a.error + b.error;
+    FlatAllowance allowance;
+    allowance.diameter_words = target_.diameter.Is(dialects::DiameterRule::kYes);
+    const auto difference = CompareWithFlat(a.trace, b.trace, allowance);
+    return difference ? "flat: " + *difference : "";
+  }
+  app::ComparisonSetup setup;
+  setup.runs = 25;
+  setup.max_blocks = kMostBlocks;
+  std::vector<prove::Input> inputs;
+  const std::size_t before = context_->findings.All().size();
+  const prove::Verification verification =
+      app::CompareTranslation(*context_, set_, machine_, entry_, target_, translation, files, &config_, setup, inputs);
+  if (verification.difference) return "difference: " + verification.difference->what;
+  if (!verification.compared && compared_) {
+    const auto& all = context_->findings.All();
+    return "not compared: " + verification.not_compared + (all.size() > before ? ", " + all.back().message : "");
+  }
+  return {};
+}
+
+std::string Subject::Judge(bool& changed) {
+  std::string text;
+  std::vector<backends::OutputFile> files;
+  backends::Translation translation;
+  const std::string refused = Write(text, files, translation);
+  Now().active = kNone;
+  Now().table = {};
+  if (!refused.empty()) return refused;
+  changed = text != text_;
+  return changed ? Compare(text, files, translation) : "";
+}
+
+}  // namespace ncport::tests::faults

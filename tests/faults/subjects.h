@@ -1,0 +1,72 @@
+// The programs that the faults are judged by, and how each is used.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/pipeline.h"
+#include "backends/translate.h"
+#include "dialects/config.h"
+#include "ir/machine.h"
+
+namespace ncport::tests::faults {
+
+/// A program, and what is to be done with it.
+struct Job {
+  std::string name;
+  std::filesystem::path program;
+  std::string from;
+  std::string to;      // translate and flatten
+  std::string config;  // path of ncport.toml; empty: none
+  std::vector<std::string> set;
+  std::string start, call;
+  std::string expected;  // text of a trace; read only
+  bool alarms = false;   // the expected trace ends in an alarm
+};
+
+struct Jobs {
+  std::vector<Job> read;  // traced, and compared with the expected trace
+  std::vector<Job> write;
+};
+/// Vectors, samples, golden cases (unpacked below `scratch`) and the programs of this test.
+Jobs ListJobs(const std::filesystem::path& root, const std::filesystem::path& scratch);
+
+/// Traces a program: empty if it does what is expected, else what is wrong.
+std::string CheckTrace(const Job& job);
+
+/// A translation, or a flat program, that is read back and compared.
+class Subject {
+ public:
+  explicit Subject(Job job) : job_(std::move(job)) {}
+  /// Reads the source, writes the target and compares, without a fault. False: the program is of no use here.
+  bool Prepare();
+  /// Writes the target with the fault that is on, switches it off, reads back and compares. Empty: nothing was found;
+  /// `changed`: but the text is another one.
+  std::string Judge(bool& changed);
+  [[nodiscard]] const std::string& Name() const { return job_.name; }
+
+  std::set<std::uint32_t> asked;                          // seams on the way
+  std::set<std::pair<const void*, std::uint32_t>> taken;  // rows of tables
+
+ private:
+  std::string Write(std::string& text, std::vector<backends::OutputFile>& files, backends::Translation& translation);
+  std::string Compare(const std::string& text, const std::vector<backends::OutputFile>& files,
+                      const backends::Translation& translation);
+
+  Job job_;
+  bool flat_ = false, prepared_ = false, compared_ = false;
+  std::unique_ptr<Context> context_;
+  app::ProgramSet set_;
+  ir::Machine machine_;
+  ir::ProgramId entry_;
+  dialects::Profile target_;
+  dialects::Config all_config_, config_;
+  std::string text_;
+  std::string source_trace_;  // flat
+};
+
+}  // namespace ncport::tests::faults

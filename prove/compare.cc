@@ -296,6 +296,7 @@ class Comparer {
   void CompareSpindle(const Event& a, const Event& b, const SpindleNow& sa, const SpindleNow& sb);
   void CompareTool(const Event& a, const Event& b);
   void CompareToolState(const Event& a, const Event& b);
+  void CompareCompensation(const Event& a, const Event& b);
   void CompareWorkOffset(const Event& a, const Event& b);
   bool SkipSplitRapid(const Event& a);
   void NoteLonely(const Event& event, std::uint16_t axes, std::array<std::optional<double>, ir::kMaxAxes>& seen,
@@ -472,6 +473,13 @@ void Comparer::CompareToolState(const Event& a, const Event& b) {
   Fail(&a, &b, "the tool offset in force is not the one that the tool map gives");
 }
 
+/// The side that the cutter is kept on, as it is in force: a block that the translation added may have selected it.
+void Comparer::CompareCompensation(const Event& a, const Event& b) {
+  const auto side = [](ir::CutterComp comp) { return comp == ir::CutterComp::kUnknown ? ir::CutterComp::kOff : comp; };
+  if (side(source_.Now().comp) != side(target_.Now().comp))
+    Fail(&a, &b, "cutter compensation is in force on one side only, or the other way");
+}
+
 /// The work offset in force. A source that selects none works with the one that is in force, whichever it is.
 void Comparer::CompareWorkOffset(const Event& a, const Event& b) {
   const Selected& sa = source_.Now();
@@ -574,6 +582,7 @@ void Comparer::ComparePair(const Event& a, const Event& b) {
     case EventKind::kReference:
       if (a.kind != EventKind::kReference) ComparePositions(a, b);
       if (!Failed()) CompareMotionDetails(a, b);
+      if (!Failed()) CompareCompensation(a, b);
       if (!Failed() && IsCutting(a.kind)) CompareSpindles(a, b, source_.SpindlesNow(), target_.SpindlesNow());
       if (!Failed() && (IsCutting(a.kind) || ((options_.maps.separate_registers || options_.maps.source_registers) &&
                                               a.kind == EventKind::kRapid)))

@@ -108,6 +108,24 @@ TEST_CASE("equal traces agree and a changed coordinate, feed, kind or length doe
   CHECK_FALSE(Agree(shorter, a));
 }
 
+TEST_CASE("cutter compensation that an added block leaves on is a difference, one that it switches off is none") {
+  const auto comp = [](ir::CutterComp side) {
+    Event event;
+    event.kind = EventKind::kComp;
+    event.comp = side;
+    return event;
+  };
+  Trace a, on, off, both;
+  a.Rapid(10, 2).Line(10, -5, 0.2).End();
+  on.Added().Put(comp(ir::CutterComp::kLeft)).Rapid(10, 2).Line(10, -5, 0.2).End();
+  off.Added().Put(comp(ir::CutterComp::kOff)).Rapid(10, 2).Line(10, -5, 0.2).End();
+  both.Added().Put(comp(ir::CutterComp::kLeft)).Added().Put(comp(ir::CutterComp::kOff));
+  both.Rapid(10, 2).Line(10, -5, 0.2).End();
+  CHECK_FALSE(Agree(a, on));
+  CHECK(Agree(a, off));
+  CHECK(Agree(a, both));
+}
+
 TEST_CASE("the allowance is half an increment where a control rounds, halved on a diameter, and does not grow") {
   CompareOptions options;
   options.target = {ir::WordError::kRound, 0.001, 0};

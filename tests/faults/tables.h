@@ -10,7 +10,7 @@
 namespace ncport::tests::faults {
 
 struct SeededTable {
-  std::string name;  // of the fault: "sinumerik codes: G0 <-> G1 (printed)"
+  std::string name;   // of the fault: "sinumerik codes: G0 <-> G1 (printed)"
   std::string plain;  // without the count of those that are called the same
   std::string language;
   std::string text_a, text_b;

@@ -60,7 +60,8 @@ Status Diff(Context& context, const Input& a, const Input& b, const DiffOptions&
                     target.machine.transverse_axis};
   compare.maps.cross_language = source.set.profile.language != target.set.profile.language;
   compare.tolerance = options.tolerance;
-  const prove::Comparison comparison = prove::Compare(source.trace, target.trace, compare, target.machine.start.work_offset);
+  const prove::Comparison comparison =
+      prove::Compare(source.trace, target.trace, compare, target.machine.start.work_offset);
   if (!comparison.difference) return {};
   auto& finding = context.findings.Report(
       diag::Code::kTraceDiffers, PlaceOf(source, comparison.difference->source_block), comparison.difference->what);

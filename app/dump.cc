@@ -43,8 +43,8 @@ Status Dump(Context& context, std::vector<Input> inputs, const DumpOptions& opti
   TokenDump tokens(context.files, text);
   const bool wants_tokens = options.stage == DumpStage::kTokens;
   // A program with errors can be looked at too: its refused blocks are marked.
-  const Status read =
-      app::ReadSet(context, std::move(inputs), options, app::ProfileNeed::kGuess, set, wants_tokens ? &tokens : nullptr);
+  const Status read = app::ReadSet(context, std::move(inputs), options, app::ProfileNeed::kGuess, set,
+                                   wants_tokens ? &tokens : nullptr);
   if (set.module.programs.Empty()) return read;
   if (options.stage == DumpStage::kCfg) {
     ir::analysis::DumpCfg(set.module, text);

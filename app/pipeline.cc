@@ -34,8 +34,8 @@ Status AddFile(Context& context, Input& input, FileId& id) {
   return {};
 }
 
-/// Reads called programs until nothing new is asked for. `read`: names of the files that the set has; another set of the
-/// same context may have read the same files.
+/// Reads called programs until nothing new is asked for. `read`: names of the files that the set has; another set of
+/// the same context may have read the same files.
 Status ReadCalled(Context& context, const ReadSettings& settings, std::unordered_set<std::string>& read,
                   ProgramSet& set) {
   Status ok;

@@ -66,7 +66,7 @@ struct Translation {
   std::vector<std::string> required;     // what the machine must have: options, parameters, settings
   std::vector<std::string> assumptions;  // unverified rules and settings that the output rests on, with the card row
   bool keeps_files = false;              // the programs stay in the files of the source
-  std::uint32_t stopped_blocks = 0;  // blocks of the source that became alarms (--unsupported=stop)
+  std::uint32_t stopped_blocks = 0;      // blocks of the source that became alarms (--unsupported=stop)
   bool messages_lost = false;
   bool path_lost = false;
   bool tool_change_added = false;  // the target has a change word where the source's tool word changes by itself

@@ -137,6 +137,22 @@ void CheckFlow(Context& context, const app::ProgramSet& set, const CheckOptions&
   (void)check::CheckValues(set.module, subject.machine, subject.graphs, subject.calls, rules, context.findings);
 }
 
+/// What the control takes and only ncport does not translate is no mistake of the program: check mentions it.
+void MentionUntranslated(const SourceFiles& files, diag::Sink& findings) {
+  std::vector<diag::Diagnostic> untranslated;
+  findings.Remove([&](const diag::Diagnostic& finding) {
+    if (finding.code != diag::Code::kNotSupported || !finding.at.Valid()) return false;
+    untranslated.push_back(finding);
+    return true;
+  });
+  for (diag::Diagnostic& old : untranslated) {
+    const std::string_view word = files.Line(old.at.file, old.at.line).substr(old.at.begin, old.at.end - old.at.begin);
+    diag::Diagnostic& finding = findings.ReportAs(diag::Severity::kInfo, old.code, old.at, word);
+    finding.help = std::move(old.help);
+    finding.notes = std::move(old.notes);
+  }
+}
+
 }  // namespace
 
 Status Check(Context& context, std::vector<Input> inputs, const CheckOptions& options) {
@@ -148,6 +164,7 @@ Status Check(Context& context, std::vector<Input> inputs, const CheckOptions& op
   if (set.inputs.empty()) return read & Failure{};
   const ir::ModalState entry = options.config != nullptr ? options.config->entry : ir::ModalState{};
   const check::Subject subject(set.module, set.profile, entry);
+  MentionUntranslated(context.files, context.findings);
   check::CheckPrograms(subject, context.findings);
 
   CheckFlow(context, set, options, subject);

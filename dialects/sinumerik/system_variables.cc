@@ -168,4 +168,6 @@ const SystemRow* FindSystemVariable(std::string_view name) {
   return nullptr;
 }
 
+bool IsUnlistedSystemVariable(std::string_view name) { return FindSystemVariable(name) == &kOther; }
+
 }  // namespace ncport::dialects::sinumerik

@@ -80,6 +80,9 @@ std::span<const SystemRow> SystemVariables();
 /// (MN_ MC_ MA_ MAS_ SN_ SC_ SA_), and other variables by the letters in front (AA_ AC_ P_ ...), which only the machine
 /// knows. Null = no system variable.
 const SystemRow* FindSystemVariable(std::string_view name);
+/// True if only the first letters tell that `name` is a system variable, so that it may be misspelled; not so for
+/// machine and setting data, whose names are the builder's.
+bool IsUnlistedSystemVariable(std::string_view name);
 
 /// Words of PROC blocks behind the parameters; only SAVE changes what a run does.
 std::span<const std::string_view> ProgramAttributes();

@@ -1,7 +1,12 @@
-// What the words of one block do to each other, and limits of their values (card 8.3, 8.6, 8.7, 8.9).
+// What the words of one block do to each other, and limits of their values (card 6.3, 8.3, 8.6, 8.7, 8.9, 9).
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
+#include "base/near_name.h"
+#include "dialects/sinumerik/words.h"
+#include "frontend/common/chars.h"
 #include "frontend/sinumerik/resolver.h"
 
 namespace ncport::frontend::sinumerik {
@@ -12,6 +17,8 @@ using ir::ExprOp;
 using ir::WordOp;
 
 namespace {
+
+namespace words = dialects::sinumerik;
 
 /// The number that stands in the text, also with a sign or in brackets; nothing for what is computed.
 std::optional<double> Literal(const ir::Module& module, ExprId id) {
@@ -40,13 +47,27 @@ std::optional<double> Literal(const ir::Module& module, ExprId id) {
 
 bool Resolver::BlockRules(const ir::Block& block) {
   bool ok = OwnBlock(block) && PolarBesideAxis(block);
+  Marks(block);
+  const ir::Word* center = nullptr;
+  const ir::Word* radius = nullptr;
   for (const ir::WordId id : block.words) {
     const ir::Word& word = module_.words[id];
+    if (word.op == WordOp::kCenter) center = &word;
+    if (word.op == WordOp::kRadius) radius = &word;
     if (word.op == WordOp::kOpeningAngle) ok = ok && Limit(word, 0, 360, "0 to 360");
     if (word.op == WordOp::kChamfer) ok = ok && Limit(word, 0, 1e300, "0 and above");
     if (word.op == WordOp::kPolarRadius) ok = ok && Limit(word, 0, 1e300, "0 and above");
   }
+  if (ok && center != nullptr && radius != nullptr) {
+    const SourceRange at = module_.RangeOf(block, *radius);
+    sink_.ReportAs(diag::Severity::kWarning, Code::kWordConflict, at, Slice(module_.RangeOf(block, *center)), Slice(at))
+        .help = "the radius follows from the centre: leave out one of them";
+  }
   return ok;
+}
+
+std::string_view Resolver::Slice(const SourceRange& at) const {
+  return files_.Line(at.file, at.line).substr(at.begin, at.end - at.begin);
 }
 
 bool Resolver::Limit(const ir::Word& word, double low, double high, std::string_view range) {
@@ -90,11 +111,57 @@ bool Resolver::PolarBesideAxis(const ir::Block& block) {
   if (polar == nullptr || axes < 2) return true;
   const SourceRange at = module_.RangeOf(block, *axis);
   const SourceRange other = module_.RangeOf(block, *polar);
-  const std::string_view line = files_.Line(at.file, at.line);
-  const auto slice = [&](const SourceRange& range) { return line.substr(range.begin, range.end - range.begin); };
-  sink_.Report(Code::kWordConflict, at, slice(other), slice(at)).help =
+  sink_.Report(Code::kWordConflict, at, Slice(other), Slice(at)).help =
       "AP and RP alone describe the point in the plane; only the third axis may stand beside them";
   return false;
+}
+
+// Card 6.3: no label and no skip mark in front of a word of a structure.
+void Resolver::Marks(const ir::Block& block) {
+  if (block.words.Empty()) return;
+  const ir::Word& word = module_.words[block.words[0]];
+  if (!ir::IsStructureMark(word.op)) return;
+  const bool skip = block.skip_level != ir::Block::kNoSkip;
+  if (!skip && !block.label.Valid()) return;
+  const SourceRange at = module_.RangeOf(block, word);
+  const std::string_view line = files_.Line(at.file, at.line);
+  std::uint32_t end = at.begin;
+  while (end < line.size() && (IsLetter(line[end]))) ++end;
+  sink_.Report(Code::kNotAlone, at, line.substr(at.begin, end - at.begin)).help =
+      skip ? "no skip mark can stand in front of it: jump around the structure"
+           : "no label can stand in front of it: give the label a block of its own";
+}
+
+// Card 9: the list is not complete, so what looks wrong is a warning.
+void Resolver::SystemVariable(ExprId id) {
+  const ir::Expr& expr = module_.exprs[id];
+  const ir::System& system = module_.systems[ir::SystemId{std::size_t{expr.a}}];
+  std::string name(module_.View(system.name));
+  for (char& c : name) c = Upper(c);
+  const std::size_t dollar = name.find_first_not_of('$');
+  if (dollar != std::string::npos) name.erase(0, dollar);
+  const words::SystemRow* row = words::FindSystemVariable(name);
+  if (row == nullptr) return;
+  if (words::IsUnlistedSystemVariable(name)) {
+    std::vector<std::string_view> known;
+    for (const auto& listed : words::SystemVariables()) known.push_back(listed.name);
+    const std::string_view near = NearName(name, known);
+    // Short names are near to each other without a slip.
+    if (near.empty() || near.size() < 4 || !doubted_systems_.insert(name).second) return;
+    const SourceRange at = module_.RangeOf(module_.blocks[block_], id);
+    diag::Diagnostic& finding = sink_.ReportAs(diag::Severity::kWarning, Code::kUnknownName, at, "$" + name);
+    finding.help = "did you mean $" + std::string(near) + "?";
+    finding.notes.push_back({{}, "not all system variables of the control are known to ncport"});
+    return;
+  }
+  constexpr std::uint8_t kAnyIndices = 0xFF;
+  if (row->indices == kAnyIndices || expr.count == row->indices) return;
+  // `$P_UIFR[1,X,TR]`: axis and component of a frame stand behind its own indices.
+  if (row->type == ir::Type::kFrame && expr.count == row->indices + 2U) return;
+  sink_
+      .ReportAs(diag::Severity::kWarning, Code::kArgumentCount, module_.RangeOf(module_.blocks[block_], id), "$" + name,
+                row->indices, expr.count)
+      .help = "they stand in []";
 }
 
 }  // namespace ncport::frontend::sinumerik

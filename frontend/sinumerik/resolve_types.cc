@@ -124,6 +124,7 @@ bool Resolver::Expr(ExprId id) {
       for (std::uint32_t i = 0; i < expr.count; ++i) {
         if (!Scalar(module_.Item(expr.b + i))) return false;
       }
+      if (!module_.programs[program_].library) SystemVariable(id);
       return true;
     }
     case ExprOp::kGroup: {

@@ -48,6 +48,8 @@ class Resolver {
   // What words of one block do to each other (resolve_blocks.cc). False after an error.
   bool BlockRules(const ir::Block& block);
   bool OwnBlock(const ir::Block& block);
+  void Marks(const ir::Block& block);
+  [[nodiscard]] std::string_view Slice(const SourceRange& at) const;
   bool PolarBesideAxis(const ir::Block& block);
   bool Limit(const ir::Word& word, double low, double high, std::string_view range);
 
@@ -78,6 +80,7 @@ class Resolver {
     return false;
   }
   bool UnknownName(ir::ExprId id, std::string_view name);
+  void SystemVariable(ir::ExprId id);
 
   [[nodiscard]] std::uint64_t Key(ir::ProgramId program, std::string_view name) const;
 
@@ -99,8 +102,9 @@ class Resolver {
   };
   std::unordered_map<std::string, Missing> missing_names_;  // of program_, upper case
   std::unordered_set<std::string> missing_programs_;
-  ir::VariableId defined_;                // whose start value is resolved
-  std::optional<ProgramIndex> programs_;  // all programs are read when names are looked up
+  std::unordered_set<std::string> doubted_systems_;  // system variables that had a finding
+  ir::VariableId defined_;                           // whose start value is resolved
+  std::optional<ProgramIndex> programs_;             // all programs are read when names are looked up
 };
 
 }  // namespace ncport::frontend::sinumerik

@@ -55,4 +55,32 @@ TEST_CASE("passes are 1 to 9999") {
   CHECK(Findings("%_N_A_MPF\nL77 P=R1\n" + sub).empty());
 }
 
+TEST_CASE("no label and no skip mark in front of a structure") {
+  CHECK(Findings("AB: IF R1>1\nENDIF\n") == "NC1022 1:5 IF must stand alone in its block\n");
+  CHECK(Findings("/ LOOP\nENDLOOP\n") == "NC1022 1:3 LOOP must stand alone in its block\n");
+  CHECK(Findings("IF R1>1\nAB: ENDIF\n") == "NC1022 2:5 ENDIF must stand alone in its block\n");
+  CHECK(Findings("AB:\nIF R1>1\nENDIF\n").empty());
+  CHECK(Findings("N10 IF R1>1\nENDIF\n").empty());
+  CHECK(Findings("AB: IF R1>1 GOTOB AB\n").empty());
+}
+
+TEST_CASE("system variables that are not listed or lack an index") {
+  CHECK(Findings("R1=$P_TOLNO\n") == "NC2001 1:4 $P_TOLNO is not declared\n");
+  CHECK(Findings("R1=$AA_IWX[X]\nR2=$AA_IWX[X]\n").find("NC2001 2:") == std::string::npos);
+  CHECK(Findings("R1=$P_EP\n") == "NC2011 1:4 $P_EP takes 1 arguments, 0 are given\n");
+  CHECK(Findings("R1=$P_TOOLNO[1]\n") == "NC2011 1:4 $P_TOOLNO takes 0 arguments, 1 are given\n");
+  CHECK(Findings("R1=$P_EP[X]\n").empty());
+  CHECK(Findings("R1=$MC_BUILDERS_OWN\n").empty());
+  CHECK(Findings("R1=$AC_MARKER[2]\n").empty());
+}
+
+TEST_CASE("an arc has a centre or a radius") {
+  CHECK(Findings("G2 X10 I5 CR=5\n") == "NC1013 1:10 I5 and CR=5 exclude each other in one block\n");
+  CHECK(Findings("G3 X10 CR=6 J5\n") == "NC1013 1:7 J5 and CR=6 exclude each other in one block\n");
+  CHECK(Findings("G2 X10 K1 CR=R1\n") == "NC1013 1:10 K1 and CR=R1 exclude each other in one block\n");
+  CHECK(Findings("G2 X10 I5\n").empty());
+  CHECK(Findings("G2 X10 CR=5\n").empty());
+  CHECK(Findings("G2 X10 I5 AR=90\n").empty());
+}
+
 }  // namespace ncport::frontend::sinumerik

@@ -158,6 +158,7 @@ void AddGolden(const fs::path& file, const fs::path& scratch, Jobs& jobs) {
 /// trace beside it in NAME.expected, compared for each line without --to.
 void AddOwn(const fs::path& folder, Jobs& jobs) {
   std::vector<fs::path> files;
+  if (!fs::exists(folder)) return;
   for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path());
   std::ranges::sort(files);
   for (const fs::path& path : files) {
@@ -310,8 +311,10 @@ std::string Subject::Compare(const std::string& text, const std::vector<backends
   setup.max_blocks = kMostBlocks;
   std::vector<prove::Input> inputs;
   const std::size_t before = context_->findings.All().size();
+  exec::RunOptions run;
+  run.entry = entry_;
   const prove::Verification verification =
-      app::CompareTranslation(*context_, set_, machine_, entry_, target_, translation, files, &config_, setup, inputs);
+      app::CompareTranslation(*context_, set_, machine_, run, target_, translation, files, &config_, setup, inputs);
   if (verification.difference) return "difference: " + verification.difference->what;
   if (!verification.compared && compared_) {
     const auto& all = context_->findings.All();

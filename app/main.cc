@@ -320,7 +320,7 @@ int RunDump(const DumpArguments& arguments) {
 }
 
 struct TranslateArguments : Common, Running {
-  std::string to, output = "-", unsupported = "error", source_map;
+  std::string to, output = "-", unsupported = "error", source_map, report;
   bool verify = false;
   std::uint32_t runs = 200;
   std::uint64_t seed = 1;
@@ -344,6 +344,21 @@ int RunTranslate(const TranslateArguments& arguments) {
       return kUsage;
     }
     options.source_map = &map.Text();
+  }
+  if (!arguments.report.empty()) {
+    const std::optional<ReportForm> form = ReportFormOf(arguments.report);
+    if (!form) {
+      Say(fmt::format("the form of the report follows from its ending, .html or .json; {} has another",
+                      arguments.report));
+      return kUsage;
+    }
+    OutputFile& report = *files.emplace_back(std::make_unique<OutputFile>(arguments.report));
+    if (!report.Open().Ok()) {
+      Say(report.Error());
+      return kUsage;
+    }
+    options.report = &report.Text();
+    options.report_form = *form;
   }
   TranslateResult result;
   const Status ok = Translate(session.context, session.TakeInputs(), options, result);
@@ -448,6 +463,10 @@ int Main(int argc, char** argv) {
       ->check(CLI::IsMember({"error", "stop"}));
   command
       ->add_option("--source-map", translate.source_map, "file for the places that the blocks come from, as JSON lines")
+      ->type_name("FILE");
+  command
+      ->add_option("--report", translate.report,
+                   "sheet that goes to the machine with the programs; .html or .json by its ending")
       ->type_name("FILE");
   command
       ->add_option("-o", translate.output,

@@ -75,10 +75,12 @@ struct FlattenOptions : RunSettings {
 };
 
 struct TranslateOptions : RunSettings {
-  std::string to;                    // profile of the output; empty: from `config`
-  bool verify = false;               // run both programs and compare; a difference is an error
-  std::uint32_t runs = 200;          // parameter sets that count
-  std::uint64_t seed = 1;            // of the sets
+  std::string to;                // profile of the output; empty: from `config`
+  bool verify = false;           // run both programs and compare; a difference is an error
+  std::uint32_t runs = 200;      // parameter sets that count
+  std::uint64_t seed = 1;        // of the sets
+  OutputSink* report = nullptr;  // the sheet of app/report.h
+  app::ReportForm report_form = app::ReportForm::kHtml;
   bool stop_at_unsupported = false;  // refused blocks become alarms; the result has files and the call fails
   OutputSink* source_map = nullptr;  // JSON lines {version, out, file, line, calls, turns}
 };

@@ -8,12 +8,15 @@
 #include <utility>
 
 #include "app/comparison.h"
+#include "app/envelope.h"
 #include "app/ncport.h"
 #include "app/pipeline.h"
 #include "app/source_map_json.h"
 #include "app/stops.h"
+#include "app/translate_report.h"
 #include "app/translation_header.h"
 #include "dialects/machine.h"
+#include "exec/run.h"
 
 namespace ncport {
 namespace {
@@ -44,6 +47,20 @@ void ReportNotCompared(Context& context, const app::ProgramSet& set, const prove
                              branch.taken ? "this condition never held" : "this condition always held"});
   }
   finding.help = "declare what the arguments may be in [ranges] of ncport.toml, or give more sets with --runs";
+}
+
+/// How far the source goes with each tool, as its own calls run it. Empty when it cannot run to its end: a value that
+/// only the machine knows.
+std::vector<app::ReportEnvelope> EnvelopesOf(Context& context, const app::ProgramSet& set, const ir::Machine& machine,
+                                             const dialects::Config& config, const TranslateOptions& options) {
+  Context quiet;
+  Result<exec::RunOptions> run = app::RunOptionsFor(quiet, set, options);
+  if (!run.Ok()) return {};
+  app::Envelopes envelopes(set.module, nullptr);
+  exec::NoEnvironment environment;
+  const exec::RunResult result = exec::Run(set.module, machine, *run, environment, envelopes, quiet.findings);
+  if (result.outcome != exec::Outcome::kEnded) return {};
+  return envelopes.Result(context.files, &config);
 }
 
 }  // namespace
@@ -98,7 +115,16 @@ Status Translate(Context& context, std::vector<Input> inputs, const TranslateOpt
   if (context.findings.ErrorCount() != errors) return Failure{};
   const std::vector<backends::ProgramHeader> headers =
       app::HeadersOf(context, set, target, translation, verification ? &*verification : nullptr, varied);
-  for (backends::OutputFile& file : backends::Print(target, translation, headers)) {
+  std::vector<backends::OutputFile> printed = backends::Print(target, translation, headers);
+  if (options.report != nullptr) {
+    app::Report report = app::TranslateReport(
+        {context, set, target, config, translation, printed, verification ? &*verification : nullptr, varied});
+    report.envelopes = EnvelopesOf(context, set, machine, config, options);
+    context.findings.SortByPlace();
+    app::AddFindings(report, context.findings, context.files);
+    (void)options.report->Write(app::RenderReport(report, options.report_form));
+  }
+  for (backends::OutputFile& file : printed) {
     if (options.source_map != nullptr) app::AppendSourceMap(context, translation.module, file, *options.source_map);
     result.files.push_back({std::move(file.name), std::move(file.text)});
   }

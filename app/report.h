@@ -30,11 +30,11 @@ struct ReportPair {
 
 /// A parameter of a program that callers give.
 struct ReportParameter {
-  std::string program;  // of the target
-  std::string letter;   // A, B ... or the variable's name
-  std::string source;   // name in the source
-  std::string unit;     // mm, degrees ... empty: unknown
-  std::optional<double> low, high;
+  std::string program;    // of the target
+  std::string letter;     // A, B ... or the variable's name
+  std::string source;     // name in the source
+  std::string unit;       // mm, degrees ... empty: unknown
+  std::string low, high;  // "20", or by another parameter: "EXTD-1"; empty: not declared
 };
 
 struct ReportLoss {

@@ -183,8 +183,7 @@ std::string RenderReportHtml(const Report& report) {
     page.Section("Parameters");
     page.Begin({"program", "letter", "in the source", "unit", "from", "to"});
     for (const ReportParameter& parameter : report.parameters)
-      page.Row({parameter.program, parameter.letter, parameter.source, parameter.unit, Number(parameter.low),
-                Number(parameter.high)});
+      page.Row({parameter.program, parameter.letter, parameter.source, parameter.unit, parameter.low, parameter.high});
     page.End();
   }
   page.Pairs("Programs", report.programs);

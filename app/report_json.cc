@@ -79,9 +79,8 @@ std::string RenderReportJson(const Report& report) {
   root["sourceHash"] = TextJson(report.source_hash);
   root["required"] = ListJson(report.required, text);
   root["parameters"] = ListJson(report.parameters, [](const ReportParameter& parameter) -> Json {
-    return {{"program", parameter.program},     {"letter", parameter.letter},
-            {"source", parameter.source},       {"unit", TextJson(parameter.unit)},
-            {"low", NumberJson(parameter.low)}, {"high", NumberJson(parameter.high)}};
+    return {{"program", parameter.program},     {"letter", parameter.letter},     {"source", parameter.source},
+            {"unit", TextJson(parameter.unit)}, {"low", TextJson(parameter.low)}, {"high", TextJson(parameter.high)}};
   });
   root["programs"] = ListJson(report.programs, PairJson);
   root["variables"] = ListJson(report.variables, PairJson);

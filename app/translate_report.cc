@@ -42,6 +42,12 @@ std::vector<std::string> Required(const TranslateReportInput& input) {
   return lines;
 }
 
+/// An end of a declared range as it was written: `20`, `EXTD-1`.
+std::string RangeEnd(double value, const std::string& of) {
+  if (of.empty()) return fmt::format("{:g}", value);
+  return value == 0 ? of : fmt::format("{}{:+g}", of, value);
+}
+
 void AddCells(const TranslateReportInput& input, Report& report) {
   for (const ir::transform::CellMapping& cell : input.translation.cells) {
     const auto program = std::find_if(input.translation.programs.begin(), input.translation.programs.end(),
@@ -64,8 +70,8 @@ void AddCells(const TranslateReportInput& input, Report& report) {
             return std::toupper(static_cast<unsigned char>(a)) == std::toupper(static_cast<unsigned char>(b));
           });
       if (!same) continue;
-      parameter.low = range.least;
-      parameter.high = range.most;
+      parameter.low = RangeEnd(range.least, range.least_of);
+      parameter.high = RangeEnd(range.most, range.most_of);
     }
     report.parameters.push_back(std::move(parameter));
   }

@@ -228,7 +228,8 @@ int Hunt::Run(bool quick, bool all) {
     const std::size_t most = known == open.end() ? 0 : known->second;
     if (count <= most) continue;
     ++failed;
-    std::printf("FAIL %s: %zu faults survive, open.txt says %zu; --only and --all show which\n", place.c_str(), count, most);
+    std::printf("FAIL %s: %zu faults survive, open.txt says %zu; --only and --all show which\n", place.c_str(), count,
+                most);
   }
   if (!quick && only_.empty()) {
     for (const auto& [place, most] : open) {
@@ -238,7 +239,8 @@ int Hunt::Run(bool quick, bool all) {
       std::printf("FAIL %s: %zu faults survive, open.txt says %zu: lower the number\n", place.c_str(), count, most);
     }
   }
-  std::printf("%zu faults: %zu found, %zu equivalent with a reason, %zu survive\n", results_.size(), found, same, survived);
+  std::printf("%zu faults: %zu found, %zu equivalent with a reason, %zu survive\n", results_.size(), found, same,
+              survived);
   std::printf("%zu passed, %zu failed\n", found + same, failed);
   return failed == 0 ? 0 : 1;
 }

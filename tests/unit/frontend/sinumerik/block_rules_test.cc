@@ -75,9 +75,9 @@ TEST_CASE("system variables that are not listed or lack an index") {
 }
 
 TEST_CASE("an arc has a centre or a radius") {
-  CHECK(Findings("G2 X10 I5 CR=5\n") == "NC1013 1:10 I5 and CR=5 exclude each other in one block\n");
-  CHECK(Findings("G3 X10 CR=6 J5\n") == "NC1013 1:7 J5 and CR=6 exclude each other in one block\n");
-  CHECK(Findings("G2 X10 K1 CR=R1\n") == "NC1013 1:10 K1 and CR=R1 exclude each other in one block\n");
+  CHECK(Findings("G2 X10 I5 CR=5\n") == "NC1013 1:11 I5 and CR=5 exclude each other in one block\n");
+  CHECK(Findings("G3 X10 CR=6 J5\n") == "NC1013 1:8 J5 and CR=6 exclude each other in one block\n");
+  CHECK(Findings("G2 X10 K1 CR=R1\n") == "NC1013 1:11 K1 and CR=R1 exclude each other in one block\n");
   CHECK(Findings("G2 X10 I5\n").empty());
   CHECK(Findings("G2 X10 CR=5\n").empty());
   CHECK(Findings("G2 X10 I5 AR=90\n").empty());

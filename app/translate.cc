@@ -46,7 +46,10 @@ void ReportNotCompared(Context& context, const app::ProgramSet& set, const prove
     finding.notes.push_back({set.module.RangeOf(set.module.blocks[branch.block]),
                              branch.taken ? "this condition never held" : "this condition always held"});
   }
-  finding.help = "declare what the arguments may be in [ranges] of ncport.toml, or give more sets with --runs";
+  for (const ir::BlockId block : verification.stops)
+    finding.notes.push_back({set.module.RangeOf(set.module.blocks[block]), "the alarm comes here"});
+  if (verification.stops.empty())
+    finding.help = "declare what the arguments may be in [ranges] of ncport.toml, or give more sets with --runs";
 }
 
 /// How far the source goes with each tool, as its own calls run it. Empty when it cannot run to its end: a value that

@@ -262,6 +262,7 @@ class Verifier {
   void TryOddValues();
   void CollectSkipLevels();
   void CountBranches();
+  void CountStops();
   [[nodiscard]] bool Done() const { return result_.difference.has_value() || !result_.not_compared.empty(); }
 
   const VerifyOptions& options_;
@@ -272,6 +273,7 @@ class Verifier {
   std::set<ParameterSet> seen_;
   std::vector<std::uint16_t> skip_levels_;  // each level alone, then all
   std::vector<std::uint8_t> covered_;
+  std::set<std::uint32_t> alarm_blocks_;  // of the source, where a clean run ended in an alarm that nobody wrote
   RecordedTrace source_trace_, target_trace_;
   exec::Coverage coverage_;
   bool moved_ = false, alarmed_ = false;  // of the last clean run
@@ -335,6 +337,11 @@ bool Verifier::ComparePair(const ParameterSet& set, std::uint16_t skip_levels, s
   result_.spindle_moved_across_rapid += comparison.spindle_moved_across_rapid;
   result_.longest_trace = std::max(result_.longest_trace, source_trace_.Events().size());
   alarmed_ = comparison.source_alarmed_before_motion;
+  if (a == exec::Outcome::kAlarmed && !source_trace_.Events().empty()) {
+    const exec::Event& last = source_trace_.Events().back();
+    if (last.kind == exec::EventKind::kAlarm && last.alarm != ir::AlarmClass::kUser && last.block.Valid())
+      alarm_blocks_.insert(last.block.value);
+  }
   moved_ = std::any_of(source_trace_.Events().begin(), source_trace_.Events().end(),
                        [](const exec::Event& event) { return IsMotion(event.kind); });
   if (comparison.difference) {
@@ -456,6 +463,34 @@ void Verifier::CountBranches() {
   }
 }
 
+/// Alarms that no run came past: the blocks behind them were never compared.
+void Verifier::CountStops() {
+  result_.stops.clear();
+  const ir::Module& module = source_.Module();
+  const auto does = [&](const ir::Block& block, auto holds) {
+    for (const ir::WordId word : block.words) {
+      if (holds(module.words[word].op)) return true;
+    }
+    return false;
+  };
+  const auto ends = [](ir::WordOp op) { return op == ir::WordOp::kProgramEnd || op == ir::WordOp::kReturn; };
+  for (const ir::Program& program : module.programs.All()) {
+    if (program.library) continue;
+    for (const ir::BlockId id : program.blocks) {
+      const ir::Block& block = module.blocks[id];
+      // Behind a jump that finds no target stands nothing that it would have come to.
+      if (!alarm_blocks_.contains(id.value) || does(block, [](ir::WordOp op) { return op == ir::WordOp::kJump; }))
+        continue;
+      for (std::uint32_t next = id.value + 1; next < program.blocks.begin + program.blocks.count; ++next) {
+        const ir::Block& behind = module.blocks[ir::BlockId{next}];
+        if (behind.words.Empty()) continue;
+        if (covered_[next] == 0 && !does(behind, ends)) result_.stops.push_back(id);
+        break;
+      }
+    }
+  }
+}
+
 Verification Verifier::Run() {
   CollectSkipLevels();
   covered_.assign(source_.Module().blocks.Size(), 0);
@@ -470,6 +505,7 @@ Verification Verifier::Run() {
   CountBranches();
   if (!Done() && inputs) TryOddValues();
   if (Done()) return std::move(result_);
+  CountStops();
   if (inputs && result_.sets_counted < options_.least_runs) {
     result_.not_compared = fmt::format("only {} of {} parameter sets moved before an alarm; {} are needed",
                                        result_.sets_counted, result_.sets_run, options_.least_runs);
@@ -478,6 +514,8 @@ Verification Verifier::Run() {
     result_.not_compared =
         fmt::format("{} of {} branches were never taken", result_.open_branches.size(), result_.branches);
   }
+  if (result_.not_compared.empty() && !result_.stops.empty())
+    result_.not_compared = "no run comes past an alarm of the source: what stands behind it was not compared";
   result_.compared = result_.not_compared.empty();
   return std::move(result_);
 }

@@ -72,6 +72,7 @@ struct Verification {
   std::uint32_t branches = 0, branches_taken = 0;
   std::uint32_t branches_listed = 0;  // not taken, and listed as such
   std::vector<Branch> open_branches;
+  std::vector<ir::BlockId> stops;  // of the source: every run ends here in an alarm, what stands behind was never run
   std::size_t events_compared = 0;
   std::size_t spindle_moved_across_rapid = 0;
   std::size_t longest_trace = 0;

@@ -74,6 +74,11 @@ class Loops final : public ValueRule {
       return;
     }
     if (graph.Opaque()) return;
+    if (*mark == WordOp::kWhile || *mark == WordOp::kLoop || *mark == WordOp::kUntil) {
+      // Each look goes over the body: loops nested without end would take the square of their number.
+      looked_ += id.value > block.link.value ? id.value - block.link.value : block.link.value - id.value;
+      if (looked_ > kMostLooked) return;
+    }
     switch (*mark) {
       case WordOp::kWhile: {
         const bool fixed = seen && truth->second.low == 1 && IsConstant(block);
@@ -266,6 +271,8 @@ class Loops final : public ValueRule {
   }
 
   const ir::analysis::FlowGraphs& graphs_;
+  static constexpr std::uint64_t kMostLooked = 20'000'000;  // blocks of bodies, all loops of the module together
+  std::uint64_t looked_ = 0;
   std::map<std::uint32_t, Interval> truths_;
   std::map<std::uint32_t, std::string> ranges_;
   bool has_modal_ = std::ranges::any_of(input_.module.words.All(),

@@ -137,12 +137,11 @@ class Pass {
     const Block block = module_.blocks[id];
     const ir::ModalState before = flow_.Before(program, id), at = flow_.At(program, id);
     std::vector<Word> words, dwell;
-    bool radius = false, feed = false;
+    bool feed = false;
     for (const WordId word_id : block.words) {
       if (module_.words[word_id].op == WordOp::kReference) return Reference(id, block, at, editor);
     }
     for (const WordId word_id : block.words) {
-      radius = radius || module_.words[word_id].op == WordOp::kRadius;
       feed = feed || module_.words[word_id].op == WordOp::kFeed;
     }
     for (const WordId word_id : block.words) {
@@ -169,12 +168,6 @@ class Pass {
         case WordOp::kDwellSeconds:
           dwell.push_back(word);
           continue;
-        case WordOp::kCenter:
-          if (radius && input_.source_machine->arc_radius_beats_center) continue;
-          break;
-        case WordOp::kRadius:
-          if (!CheckRadius(block, word, at)) continue;
-          break;
         case WordOp::kFeedMode:
           if (!FeedMode(program, id, block, word, before, feed)) continue;
           break;
@@ -280,22 +273,6 @@ class Pass {
     module_.blocks[id].label = {};
     module_.blocks[id].number = Block::kNoNumber;
     editor.Remove(id);
-  }
-
-  /// A radius without another end point is no motion at all there, an alarm here (fanuc-8.3, sinumerik-8.3). False: the
-  /// word goes, and with it the motion.
-  bool CheckRadius(const Block& block, const Word& word, const ir::ModalState& at) {
-    if (!input_.source_machine->arc_radius_without_end_stays || at.plane == ir::Plane::kUnknown) return true;
-    bool in_plane = false, any = false;
-    for (const WordId word_id : block.words) {
-      const Word& axis = module_.words[word_id];
-      if (axis.op != WordOp::kAxis) continue;
-      any = true;
-      const std::uint8_t normal = at.plane == ir::Plane::kXY ? 2 : at.plane == ir::Plane::kZX ? 1 : 0;
-      in_plane = in_plane || (axis.index < 3 && axis.index != normal);
-    }
-    if (!in_plane && any) Refuse(block, word, "an arc by its radius without an end point");
-    return any;
   }
 
   /// Group 15 holds G94, G95 with G96, G97: a feed word under constant surface speed would end it (sinumerik-8.1).

@@ -73,7 +73,7 @@ int Printer::StrengthOf(const ir::Expr& expr) {
       return 2;
     case ExprOp::kAdd:
     case ExprOp::kSubtract:
-      return 3;
+      return kSum;
     case ExprOp::kBitAnd:
       return 4;
     case ExprOp::kBitXor:
@@ -103,6 +103,13 @@ int Printer::StrengthOf(const ir::Expr& expr) {
     default:
       return kPrimary;
   }
+}
+
+/// A sign or a number, which may have one: behind another operator it needs brackets or a check.
+bool Printer::IsSigned(ir::ExprId id) const {
+  const ir::Expr& expr = module_.exprs[id];
+  if (expr.op == ExprOp::kConvert) return IsSigned(ir::ExprId{expr.a});
+  return expr.op == ExprOp::kNegate || expr.op == ExprOp::kPlus || expr.op == ExprOp::kLiteral;
 }
 
 void Printer::Expr(ir::ExprId id, int in) {
@@ -179,17 +186,17 @@ void Printer::Operand(const ir::Expr& expr) {
   const int strength = StrengthOf(expr);
   if (ir::OperandsOf(expr.op) == ir::Operands::kUnary) {
     out_.Append(OperatorOf(expr.op));
-    const ir::Expr& operand = module_.exprs[ir::ExprId{expr.a}];
-    // A literal with a sign of its own would stand as a doubled sign.
-    Expr(ir::ExprId{expr.a}, operand.op == ExprOp::kLiteral ? kPrimary : strength);
+    // A sign of its own would stand as a doubled sign.
+    Expr(ir::ExprId{expr.a}, IsSigned(ir::ExprId{expr.a}) ? kPrimary : strength);
     return;
   }
   NCPORT_CHECK(ir::OperandsOf(expr.op) == ir::Operands::kBinary, "SINUMERIK has no expression {}", ir::NameOf(expr.op));
   // Operators of one strength bind from the left: the right side binds tighter or has brackets.
   Expr(ir::ExprId{expr.a}, strength);
   out_.Append(OperatorOf(expr.op));
-  const ir::Expr& right = module_.exprs[ir::ExprId{expr.b}];
-  Expr(ir::ExprId{expr.b}, right.op == ExprOp::kLiteral ? kPrimary : strength - 1);
+  const bool arithmetic = strength <= kSum;
+  const bool literal = module_.exprs[ir::ExprId{expr.b}].op == ExprOp::kLiteral;
+  Expr(ir::ExprId{expr.b}, literal || (arithmetic && IsSigned(ir::ExprId{expr.b})) ? kPrimary : strength - 1);
 }
 
 void Printer::Literal(const ir::Expr& expr) {

@@ -22,11 +22,12 @@ class Printer {
 
  private:
   // Binding strength, tightest first (card 4.1). Comparisons bind weakest.
-  static constexpr int kPrimary = 0, kUnary = 1, kToText = 10, kConcat = 11, kAny = 100;
+  static constexpr int kPrimary = 0, kUnary = 1, kSum = 3, kToText = 10, kConcat = 11, kAny = 100;
 
   // print_expr.cc
   static int StrengthOf(const ir::Expr& expr);
   static std::string_view OperatorOf(ir::ExprOp op);
+  [[nodiscard]] bool IsSigned(ir::ExprId id) const;
   void Operand(const ir::Expr& expr);
   void Literal(const ir::Expr& expr);
   void Text(std::string_view text);

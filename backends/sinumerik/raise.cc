@@ -182,6 +182,29 @@ void TellTakenForGiven(const RaiseInput& input, const EmptyValuesResult& empty, 
   }
 }
 
+/// Common cells that are read as they were before the run: they are other memory on the target, and volatile ones are
+/// empty after power-on and reset, which no R parameter ever is.
+void TellReadAtEntry(const EmptyValuesResult& empty, Translation& out) {
+  constexpr std::uint32_t kFirstVolatile = 100, kLastVolatile = 199;  // fanuc-3.1
+  std::string cells, volatile_cells;
+  for (const CellMapping& cell : out.cells) {
+    if (!cell.common || !empty.common_at_entry.contains(cell.source_cell)) continue;
+    const bool is_volatile = cell.source_cell >= kFirstVolatile && cell.source_cell <= kLastVolatile;
+    std::string& text = is_volatile ? volatile_cells : cells;
+    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", cell.target, cell.source);
+  }
+  if (!volatile_cells.empty()) {
+    out.assumptions.push_back(fmt::format(
+        "read before written: {}: set them before the run, the source control may empty these at power-on and "
+        "reset (0 in arithmetic), R parameters keep their values (fanuc-3.1, sinumerik-3.1)",
+        volatile_cells));
+  }
+  if (!cells.empty()) {
+    out.assumptions.push_back(fmt::format(
+        "read before written: {}: set them before the run to what the source control holds (fanuc-3.1)", cells));
+  }
+}
+
 /// Values that the compiler made are printed like any other.
 void ShowImplied(Module& module) {
   for (ir::Expr& expr : module.exprs.All()) {
@@ -304,6 +327,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   cycles.sub_entry = entry;
   cycles.position = ir::AddSystem(module, "$P_EP", ir::SystemKind::kProgrammedPosition);
   if (!input.source_profile->IsLathe() && !ExpandCycles(module, machine, cycles, sink)) return false;
+  if (!SettleArcs(input, out, sink)) return false;
 
   AdaptExpressionsConfig expressions;
   expressions.relative_comparisons = true;
@@ -320,6 +344,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   WriteStartModes(input, out, false);
   NumbersToNamesResult names = NumbersToNames(module, CellConfig(input, empty), sink);
   out.cells = std::move(names.map);
+  TellReadAtEntry(empty, out);
   DropSpellings(out);
   ShiftSkipLevels(input, module);
   return names.ok && CheckLegal(input, module, true, sink) && ok;

@@ -11,8 +11,12 @@ namespace ncport::backends::sinumerik {
 bool ArrangeTexts(const RaiseInput& input, Translation& out, diag::Sink& sink);
 
 /// What the language reads from its words one by one becomes what SINUMERIK reads: the lead of a thread as K or I,
-/// radius before centre, dwell in a block of its own, modes that would end another one (groups 13 to 15).
+/// dwell in a block of its own, modes that would end another one (groups 13 to 15).
 bool ArrangeWords(const RaiseInput& input, Translation& out, diag::Sink& sink);
+
+/// Radius before centre; words of an arc where none is certain to be in force are refused. Behind EmptyValues, which
+/// decides which words are there, and ExpandCycles: beside a drilling mode R is a level.
+bool SettleArcs(const RaiseInput& input, Translation& out, diag::Sink& sink);
 
 /// Work offsets by [offsets]; G54 to G57 are themselves.
 bool MapOffsets(const RaiseInput& input, Translation& out, diag::Sink& sink);

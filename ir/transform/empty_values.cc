@@ -88,6 +88,7 @@ class Pass {
   // The text.
   void Rewrite(ProgramId program);
   void RewriteBlock(ProgramId program, BlockId id, ProgramEditor& editor);
+  void NoteReads(ProgramId program, const Word& word, const State& state);
   ExprId Explicit(ExprId root, const State& state);
   ExprId Comparison(ExprId id, const State& state);
   void RewriteCall(CallId id, const State& state);
@@ -130,14 +131,32 @@ bool Join(State& into, const State& from) {
   return changed;
 }
 
-/// Brackets, and the sign of a word (`X-#1`), hide no emptiness.
+/// Brackets, the sign of a word (`X-#1`), and what passes make of a word's value (its unit, its rounding) hide no
+/// emptiness; operations that the source wrote do: they have kVacantAsZero.
 ExprId Pass::Bare(ExprId id) const {
   while (id.Valid()) {
     const Expr& expr = module_.exprs[id];
-    const bool sign =
-        (expr.op == ExprOp::kNegate || expr.op == ExprOp::kPlus) && (expr.flags & Expr::kVacantAsZero) == 0;
-    if (expr.op != ExprOp::kGroup && expr.op != ExprOp::kConvert && !sign) break;
-    id = ExprId{expr.a};
+    const bool written = (expr.flags & Expr::kVacantAsZero) != 0;
+    switch (expr.op) {
+      case ExprOp::kGroup:
+      case ExprOp::kConvert:
+        break;
+      case ExprOp::kNegate:
+      case ExprOp::kPlus:
+        if (written) return id;
+        break;
+      case ExprOp::kMultiply:
+      case ExprOp::kDivide:
+        if (written || module_.exprs[ExprId{std::size_t{expr.b}}].op != ExprOp::kLiteral) return id;
+        break;
+      case ExprOp::kFunction:
+        if (written || static_cast<Function>(expr.a) != Function::kRound) return id;
+        id = module_.Item(expr.b);
+        continue;
+      default:
+        return id;
+    }
+    id = ExprId{std::size_t{expr.a}};
   }
   return id;
 }
@@ -618,10 +637,42 @@ void Pass::Variants(BlockId id, ProgramEditor& editor, const std::vector<Word>& 
       }
       kept.push_back(word);
     }
+    if (kept.empty()) continue;  // nothing of the block is there
+    if (!there) put({mark(WordOp::kElse)});
     Variants(id, editor, kept, known);
-    if (there) put({mark(WordOp::kElse)});
   }
   put({mark(WordOp::kEndIf)});
+}
+
+/// Cells that the word reads as they were before the program (locals) or before the run (common cells).
+void Pass::NoteReads(ProgramId program, const Word& word, const State& state) {
+  const auto common = [&](std::size_t index) {
+    if (!IsLocal(index) && (state[index] & kFromEntry) != 0) result_.common_at_entry.insert(cells_[index].second);
+  };
+  const auto visit_common = [&](ExprId root) {
+    VisitReads(module_, root, [&](ExprId read) {
+      const Expr& expr = module_.exprs[read];
+      if (expr.op == ExprOp::kCellAt && IsTracked(SpaceId{std::size_t{expr.b}})) Reached(expr, common);
+      if (const auto index = IndexOf(read)) common(*index);
+    });
+  };
+  VisitReads(module_, word.value, [&](ExprId read) {
+    const auto index = IndexOf(read);
+    if (index && IsLocal(*index) && (state[*index] & kFromEntry) != 0)
+      result_.read_at_entry.emplace(program, cells_[*index].second);
+  });
+  visit_common(word.value);
+  if (word.op == WordOp::kAssign) {
+    // The index of a computed place is read, the place is not.
+    const Expr& place = module_.exprs[word.Extra<ExprId>()];
+    if (place.op == ExprOp::kCellAt) visit_common(ExprId{std::size_t{place.a}});
+  }
+  if (word.op == WordOp::kJump) visit_common(module_.jumps[word.Extra<JumpId>()].target.expr);
+  if ((word.op == WordOp::kCall || word.op == WordOp::kModalCall) && word.Extra<CallId>().Valid()) {
+    const Call& call = module_.calls[word.Extra<CallId>()];
+    visit_common(call.passes);
+    for (const ArgId arg : call.args) visit_common(module_.args[arg].value);
+  }
 }
 
 void Pass::RewriteBlock(ProgramId program, BlockId id, ProgramEditor& editor) {
@@ -633,11 +684,7 @@ void Pass::RewriteBlock(ProgramId program, BlockId id, ProgramEditor& editor) {
   std::set<std::size_t> unsure;
   for (const WordId word_id : block.words) {
     Word word = module_.words[word_id];
-    VisitReads(module_, word.value, [&](ExprId read) {
-      const auto index = IndexOf(read);
-      if (index && IsLocal(*index) && (state[*index] & kFromEntry) != 0)
-        result_.read_at_entry.emplace(program, cells_[*index].second);
-    });
+    if (found != before_.end()) NoteReads(program, word, state);
     const State here = state;
     ThroughWord(program, word, state);
     if ((word.op == WordOp::kCall || word.op == WordOp::kModalCall) && word.Extra<CallId>().Valid()) {

@@ -35,6 +35,8 @@ struct EmptyValuesResult {
   bool ok = true;
   /// Local cells that a program reads as its caller left them; programs that nothing calls included.
   std::set<std::pair<ProgramId, std::uint32_t>> read_at_entry;
+  /// Common cells that are read on some way as they were before the run, declared ones included.
+  std::set<std::uint32_t> common_at_entry;
   /// Arguments that were taken for given (EmptyValuesConfig::given).
   std::set<std::pair<ProgramId, std::uint32_t>> taken_for_given;
   /// Common cells that every run of a main program to its end has written.

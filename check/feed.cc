@@ -176,9 +176,14 @@ const ir::Word* MovingWord(const ir::Module& module, const ir::Block& block) {
       case WordOp::kPolarAngle:
         if (moving == nullptr) moving = &word;
         break;
+      case WordOp::kFrame: {
+        // The end of a rotation or scale leaves the axis words to the move (fanuc-8.5).
+        const auto op = static_cast<ir::FrameOp>(word.index);
+        if (op == ir::FrameOp::kRotateEnd || op == ir::FrameOp::kScaleEnd) break;
+        return nullptr;
+      }
       case WordOp::kFeed:
       case WordOp::kFeedOnce:
-      case WordOp::kFrame:
       case WordOp::kReference:
       case WordOp::kMachineCoords:  // some controls go there at rapid
       case WordOp::kPole:

@@ -25,7 +25,7 @@ struct BlockWork {
     kMachineCoords = 1U << 10U,
     kReference = 1U << 11U,
     kPole = 1U << 12U,
-    kFrame = 1U << 13U,
+    kFrame = 1U << 13U,  // the frame operation with values
     kFrameAngle = 1U << 14U,
     kPreset = 1U << 15U,
     kDwell = 1U << 16U,
@@ -38,6 +38,10 @@ struct BlockWork {
     kEdge = 1U << 23U,
     kFeedMode = 1U << 24U,
     kCycleWord = 1U << 25U,  // a cycle begins or ends here
+    kRotateEnd = 1U << 26U,  // these may stand beside each other and beside an operation with values
+    kScaleEnd = 1U << 27U,
+    kMirrorEnd = 1U << 28U,  // its axis words name axes
+    kFrameEnds = kRotateEnd | kScaleEnd | kMirrorEnd,
   };
 
   static constexpr std::size_t kCycleFields = 32;

@@ -12,6 +12,10 @@ using ir::FrameOp;
 /// act in a fixed order whatever was written: about Z, then the new Y, then the new X; else Z, X, Z is the order of the
 /// machine.
 void Kinematics::ApplyFrame(const BlockWork& work) {
+  if (work.Has(BlockWork::kFrameEnds)) {
+    EndLayers(work);
+    if (session_.halted || !work.Has(BlockWork::kFrame)) return;
+  }
   if (work.frame >= FrameOp::kLocalShift) return ApplyLayer(work);
   Frame& frame = channel_.frame;
   const bool additive = work.frame >= FrameOp::kAddTranslate && work.frame <= FrameOp::kAddMirror;
@@ -93,19 +97,53 @@ bool Kinematics::LayerCenter(const BlockWork& work, std::uint8_t axis, double& c
   return true;
 }
 
+/// fanuc-8.5: mirrors are switched on before scale and rotation, and off behind them. What another order does is
+/// written nowhere, nor what the end of a mirror does that names no axis.
+bool Kinematics::MirrorMaySwitch(const BlockWork& work, bool on) {
+  const FrameLayers& layers = channel_.layers;
+  if (layers.rotates || layers.scales) {
+    session_.Refuse(diag::Code::kCannotRun, "a mirror switched while a rotation or scale is on");
+  } else if (work.axes == 0 && (on || layers.mirrored != 0)) {
+    session_.Refuse(diag::Code::kCannotRun, "a mirror word that names no axis");
+  }
+  return !session_.halted;
+}
+
+/// Layers end in the order of fanuc-8.5, before the words of the block that set one or move.
+void Kinematics::EndLayers(const BlockWork& work) {
+  FrameLayers& layers = channel_.layers;
+  const bool sets = work.Has(BlockWork::kFrame);
+  const bool turns = sets && work.frame == FrameOp::kRotateAbout;
+  // The manuals tell of no order between two words of one group.
+  if ((work.Has(BlockWork::kRotateEnd) && turns) ||
+      (work.Has(BlockWork::kScaleEnd) && sets && work.frame == FrameOp::kScaleAbout) ||
+      (work.Has(BlockWork::kMirrorEnd) && sets && work.frame == FrameOp::kMirrorAbout))
+    return session_.Refuse(diag::Code::kCannotRun, "a frame word beside the word that ends it");
+  // A scale acts on the centre of a later rotation (fanuc-8.5): whether this one is later is not said.
+  if (work.Has(BlockWork::kScaleEnd) && layers.scales && turns)
+    return session_.Refuse(diag::Code::kCannotRun, "a rotation beside the end of a scale");
+  if (work.Has(BlockWork::kRotateEnd)) layers.rotates = false;
+  if (work.Has(BlockWork::kScaleEnd)) layers.scales = false;
+  if (work.Has(BlockWork::kMirrorEnd)) {
+    constexpr std::uint32_t kMoves = BlockWork::kMotionWord | BlockWork::kOneShotMotion | BlockWork::kReference |
+                                     BlockWork::kMachineCoords | BlockWork::kPreset | BlockWork::kPole |
+                                     BlockWork::kCycleWord;
+    // Which axis words name axes of the mirror and which are the other word's is written nowhere.
+    if (work.axes != 0 && (sets || work.centers != 0 || work.cycle_fields != 0 || work.Has(kMoves)))
+      return session_.Refuse(diag::Code::kCannotRun, "the end of a mirror beside another word that takes axis words");
+    if (!MirrorMaySwitch(work, false)) return;
+    layers.mirrored &= static_cast<std::uint16_t>(~work.axes);
+  }
+  MakeFrame();
+  if (!sets || work.frame < FrameOp::kLocalShift) FrameChanged();  // else once, with the new layer
+}
+
 /// Shift, rotation, scale and mirror as layers: each word replaces its own one, the order between them is fixed
 /// (fanuc-8.4 to 8.6).
 void Kinematics::ApplyLayer(const BlockWork& work) {
   FrameLayers& layers = channel_.layers;
   const ir::Machine& machine = session_.machine;
-  if (work.frame == FrameOp::kMirrorAbout || work.frame == FrameOp::kMirrorEnd) {
-    // fanuc-8.5: mirrors are switched on before scale and rotation, and off behind them. What another order does is
-    // written nowhere, nor what the end of a mirror does that names no axis.
-    if (layers.rotates || layers.scales)
-      return session_.Refuse(diag::Code::kCannotRun, "a mirror switched while a rotation or scale is on");
-    if (work.axes == 0 && (work.frame == FrameOp::kMirrorAbout || layers.mirrored != 0))
-      return session_.Refuse(diag::Code::kCannotRun, "a mirror word that names no axis");
-  }
+  if (work.frame == FrameOp::kMirrorAbout && !MirrorMaySwitch(work, true)) return;
   switch (work.frame) {
     case FrameOp::kLocalShift:
       for (std::uint8_t axis = 0; axis < ir::kMaxAxes; ++axis) {
@@ -139,9 +177,6 @@ void Kinematics::ApplyLayer(const BlockWork& work) {
       layers.angle = angle;
       break;
     }
-    case FrameOp::kRotateEnd:
-      layers.rotates = false;
-      break;
     case FrameOp::kScaleAbout:
       for (std::uint8_t axis = 0; axis < 3; ++axis) {
         double factor = (work.factors & 1U) != 0 ? work.factor[0] : 1;
@@ -155,9 +190,6 @@ void Kinematics::ApplyLayer(const BlockWork& work) {
       }
       layers.scales = true;
       break;
-    case FrameOp::kScaleEnd:
-      layers.scales = false;
-      break;
     case FrameOp::kMirrorAbout:
       for (std::uint8_t axis = 0; axis < ir::kMaxAxes; ++axis) {
         if ((work.axes & AxisBit(axis)) == 0) continue;
@@ -167,9 +199,6 @@ void Kinematics::ApplyLayer(const BlockWork& work) {
         layers.mirrored |= AxisBit(axis);
         layers.mirror_at[axis] = at;
       }
-      break;
-    case FrameOp::kMirrorEnd:
-      layers.mirrored &= static_cast<std::uint16_t>(~work.axes);
       break;
     default:
       break;

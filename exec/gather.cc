@@ -208,9 +208,7 @@ void Runner::Collect(const Word& word, const Value& value) {
       work_.has |= BlockWork::kPole;
       return;
     case WordOp::kFrame:
-      work_.frame = static_cast<ir::FrameOp>(word.index);
-      work_.has |= BlockWork::kFrame;
-      return;
+      return CollectFrame(static_cast<ir::FrameOp>(word.index));
     case WordOp::kSpeed:
       work_.has |= BlockWork::kSpeed;
       return;
@@ -224,6 +222,27 @@ void Runner::Collect(const Word& word, const Value& value) {
       work_.has |= BlockWork::kEdge;
       return;
     default:
+      return;
+  }
+}
+
+/// Each group of a block acts (fanuc-8.1): what ends a layer stands beside the one operation that has values.
+void Runner::CollectFrame(ir::FrameOp op) {
+  switch (op) {
+    case ir::FrameOp::kRotateEnd:
+      work_.has |= BlockWork::kRotateEnd;
+      return;
+    case ir::FrameOp::kScaleEnd:
+      work_.has |= BlockWork::kScaleEnd;
+      return;
+    case ir::FrameOp::kMirrorEnd:
+      work_.has |= BlockWork::kMirrorEnd;
+      return;
+    default:
+      if (work_.Has(BlockWork::kFrame))
+        return session_.Refuse(diag::Code::kCannotRun, "two frame words with values in one block");
+      work_.frame = op;
+      work_.has |= BlockWork::kFrame;
       return;
   }
 }

@@ -54,6 +54,8 @@ class Kinematics {
   // frames.cc
   void ApplyFrame(const BlockWork& work);
   void ApplyLayer(const BlockWork& work);
+  void EndLayers(const BlockWork& work);
+  bool MirrorMaySwitch(const BlockWork& work, bool on);
   bool LayerCenter(const BlockWork& work, std::uint8_t axis, double& center);
   void MakeFrame();
   void FrameChanged();

@@ -247,7 +247,7 @@ void Kinematics::FinishSettings(BlockWork& work) {
   if (written) Scale(work);
   if (work.Has(BlockWork::kCycleWord)) BeginCycle(work);
   if (work.Has(BlockWork::kFeed)) SetFeed(work);
-  if (work.Has(BlockWork::kFrame)) ApplyFrame(work);
+  if (work.Has(BlockWork::kFrame | BlockWork::kFrameEnds)) ApplyFrame(work);
   if (work.Has(BlockWork::kRoundModal)) channel_.modal_rounding = work.round_modal * LengthFactor();
   if (channel_.modal.comp != channel_.shown_comp) ShowComp();
 }

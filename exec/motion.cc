@@ -26,7 +26,8 @@ constexpr bool NeedsFeed(EventKind kind) {
 
 bool Kinematics::Move(const BlockWork& work) {
   if (work.Has(BlockWork::kDwell)) Dwell(work);
-  if (work.Has(BlockWork::kFrame)) return false;  // its axis words were values of the frame
+  // Its axis words were values of the frame, or named the axes of a mirror. The end of a rotation or scale takes none.
+  if (work.Has(BlockWork::kFrame) || (work.axes != 0 && work.Has(BlockWork::kMirrorEnd))) return false;
   if (work.Has(BlockWork::kPole)) {
     SetPole(work);
     return false;

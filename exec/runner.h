@@ -70,6 +70,7 @@ class Runner {
   void Gather(const ir::Block& block);
   void GatherComputed(const ir::Word& word, double code, const std::vector<ir::CodeMeaning>& codes);
   void Collect(const ir::Word& word, const Value& value);
+  void CollectFrame(ir::FrameOp op);
   void Settings(const ir::Block& block);
   void Actions(const ir::Block& block, ir::Phase phase);
   void FinishBlock(ir::BlockId id, std::uint32_t words_end);

@@ -8,6 +8,7 @@
 #include "ir/analysis/cfg.h"
 #include "ir/analysis/modal_state.h"
 #include "ir/builder.h"
+#include "ir/transform/linear_form.h"
 #include "ir/transform/program_editor.h"
 
 namespace ncport::backends::sinumerik {
@@ -49,10 +50,12 @@ class Pass {
     bool shifts = false, rotations = false;
     for (const ir::ProgramId program : module_.programs.Ids()) {
       for (const BlockId id : module_.programs[program].blocks) {
-        const Word* frame = FrameOf(id);
-        if (frame == nullptr) continue;
-        shifts = shifts || Is(*frame, FrameOp::kLocalShift);
-        rotations = rotations || Is(*frame, FrameOp::kRotateAbout);
+        for (const WordId word_id : module_.blocks[id].words) {
+          const Word& word = module_.words[word_id];
+          if (word.op != WordOp::kFrame) continue;
+          shifts = shifts || Is(word, FrameOp::kLocalShift);
+          rotations = rotations || Is(word, FrameOp::kRotateAbout);
+        }
       }
     }
     if (!shifts && !rotations) return true;
@@ -62,14 +65,16 @@ class Pass {
         const Word* frame = FrameOf(id);
         if (frame == nullptr) continue;
         const Block block = module_.blocks[id];
-        if (shifts && rotations) {
+        if (HasSeveral(id)) {
+          Refuse(block, *frame, "several frame words in one block");
+        } else if (shifts && rotations) {
           Refuse(block, *frame, "a shift and a rotation that stand beside each other");
         } else if (Is(*frame, FrameOp::kLocalShift)) {
           Shift(id, block, *frame);
         } else if (Is(*frame, FrameOp::kRotateAbout)) {
           Rotation(program, id, block, *frame, editor);
         } else if (Is(*frame, FrameOp::kRotateEnd)) {
-          Replace(id, *frame, FrameWord(FrameOp::kTranslate));
+          RotationEnd(id, block, *frame, editor);
         }
       }
       editor.Apply();
@@ -84,6 +89,11 @@ class Pass {
       if (module_.words[word].op == WordOp::kFrame) return &module_.words[word];
     }
     return nullptr;
+  }
+  [[nodiscard]] bool HasSeveral(BlockId id) const {
+    int count = 0;
+    for (const WordId word : module_.blocks[id].words) count += module_.words[word].op == WordOp::kFrame ? 1 : 0;
+    return count > 1;
   }
   void Refuse(const Block& block, const Word& word, std::string_view what) {
     ok_ = false;
@@ -127,6 +137,46 @@ class Pass {
                                                 : make_.Binary(ExprOp::kDivide, word.value, make_.Number("2"));
     }
     Replace(id, frame, FrameWord(FrameOp::kTranslate));
+  }
+
+  /// Frame words stand alone (sinumerik-1.3): these go into a block before the others, with its number and label.
+  void PutBefore(BlockId id, const Block& block, const std::vector<Word>& words, ProgramEditor& editor) {
+    Block made = editor.MakeBlock(id);
+    made.skip_level = block.skip_level;
+    made.number = block.number;
+    made.number_digits = block.number_digits;
+    made.label = block.label;
+    made.comments = block.comments;
+    module_.blocks[id].number = Block::kNoNumber;
+    module_.blocks[id].label = {};
+    module_.blocks[id].comments = {};
+    editor.SetWords(made, words);
+    editor.InsertBefore(id, made);
+  }
+
+  /// G69 may stand beside a move (fanuc-8.5), which comes behind it.
+  void RotationEnd(BlockId id, const Block& block, const Word& frame, ProgramEditor& editor) {
+    std::vector<Word> others;
+    for (const WordId word_id : block.words) {
+      const Word& word = module_.words[word_id];
+      if (&word == &frame) continue;
+      // Its values were taken before the rotation ended.
+      bool reads = word.op == WordOp::kWhen || word.op == WordOp::kSkipRest;
+      const auto look = [&](ExprId value) {
+        if (!value.Valid()) return;
+        ir::transform::VisitReads(module_, value,
+                                  [&](ExprId read) { reads = reads || module_.exprs[read].op == ExprOp::kSystem; });
+      };
+      look(word.value);
+      if (word.op == WordOp::kCall || word.op == WordOp::kModalCall) reads = true;  // and its arguments
+      if (reads) return Refuse(block, word, "this word beside the end of a rotation");
+      others.push_back(word);
+    }
+    if (others.empty()) return Replace(id, frame, FrameWord(FrameOp::kTranslate));
+    PutBefore(id, block, {FrameWord(FrameOp::kTranslate)}, editor);
+    Block changed = block;
+    editor.SetWords(changed, others);
+    module_.blocks[id].words = changed.words;
   }
 
   /// About a centre: there, turn, and back by the way of the turned axes.
@@ -173,20 +223,7 @@ class Pass {
       editor.SetWords(made, words);
       editor.InsertAfter(id, made);
     };
-    if (!modes.empty()) {
-      // Frame words stand alone (sinumerik-1.3).
-      Block made = editor.MakeBlock(id);
-      made.skip_level = block.skip_level;
-      made.number = block.number;
-      made.number_digits = block.number_digits;
-      made.label = block.label;
-      made.comments = block.comments;
-      module_.blocks[id].number = Block::kNoNumber;
-      module_.blocks[id].label = {};
-      module_.blocks[id].comments = {};
-      editor.SetWords(made, modes);
-      editor.InsertBefore(id, made);
-    }
+    if (!modes.empty()) PutBefore(id, block, modes, editor);
     if (origin) return put({turn}, FrameOp::kRotate, true);
     put(there, FrameOp::kTranslate, true);
     put({turn}, FrameOp::kAddRotate, false);

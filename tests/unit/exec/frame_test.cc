@@ -72,4 +72,57 @@ TEST_CASE_FIXTURE(RunFixture, "shifts of the transverse axis are radii unless th
   CHECK(diameter.Trace({"TRANS X10", "G0 X20"}) == "RAPID Xr15\n");
 }
 
+TEST_CASE_FIXTURE(RunFixture, "a block that ends a rotation or a scale moves behind it") {
+  CHECK(Trace({"G0 X0 Y0 Z0", "G68 X10 Y0 RPL=90", "X20 Y0", "G69 G0 X0 Y0 Z50", "X8"}) ==
+        "RAPID X0 Y0 Z0\nRAPID X10 Y10 Z0\nRAPID X0 Y0 Z50\nRAPID X8 Y0 Z50\n");
+  RunFixture modal;
+  CHECK(modal.Trace({"G0 X0 Y0", "G68 X0 Y0 RPL=90", "X20 Y0", "G69 X30 Y40", "G1 G69 X3 F50"}) ==
+        "RAPID X0 Y0\nRAPID X0 Y20\nRAPID X30 Y40\nLINE X3 Y40 F50\n");
+  RunFixture scale;
+  CHECK(scale.Trace({"G0 X0 Y0 Z0", "G51 X0 Y0 Z0 P2", "X10", "G50 X30", "G1 X31 F50"}) ==
+        "RAPID X0 Y0 Z0\nRAPID X20 Y0 Z0\nRAPID X30 Y0 Z0\nLINE X31 Y0 Z0 F50\n");
+}
+
+TEST_CASE_FIXTURE(RunFixture, "a mirror ends for the axes that its block names, which moves none") {
+  CHECK(Trace({"G0 X0 Y0", "G51.1 X0 Y0", "X5 Y6", "G50.1 X7", "X5 Y6", "G50.1 Y7", "X5 Y6", "G50.1 G0", "X1"}) ==
+        "RAPID X0 Y0\nRAPID X-5 Y-6\nRAPID X5 Y-6\nRAPID X5 Y6\nRAPID X1 Y6\n");
+  for (const std::string_view block : {"G50.1 X0 G0 Y7", "G50.1 X0 G74", "G50.1 X0 SUPA", "G50.1 X0 I1"}) {
+    RunFixture beside;
+    beside.Trace({"G0 X0 Y0", "G51.1 X0", block});
+    CHECK(beside.Finding().find("the end of a mirror beside another word") != std::string::npos);
+  }
+}
+
+TEST_CASE_FIXTURE(RunFixture, "every frame word of a block acts") {
+  CHECK(Trace({"G0 X0 Y0 Z0", "G51 X0 Y0 P2", "G68 X0 Y0 RPL=90", "X10 Y0", "G17 G40 G69 G50", "X10 Y1"}) ==
+        "RAPID X0 Y0 Z0\nRAPID X0 Y20 Z0\nRAPID X10 Y1 Z0\n");
+  RunFixture mirror;
+  CHECK(mirror.Trace({"G0 X0 Y0", "G51.1 X0", "G68 X0 Y0 RPL=90", "X10 Y1", "G50.1 X0 G69", "X10 Y1"}) ==
+        "RAPID X0 Y0\nRAPID X1 Y10\nRAPID X10 Y1\n");
+  RunFixture shift;
+  CHECK(shift.Trace({"G0 X0 Y0", "G68 X0 Y0 RPL=90", "G52 X5 G69", "X10 Y1"}) == "RAPID X0 Y0\nRAPID X15 Y1\n");
+  RunFixture sides;  // one change of the side at most
+  CHECK(sides.Trace({"G0 X0 Y0", "G68 X0 Y0 RPL=90", "G42", "G51.1 X0 G69"}) == "RAPID X0 Y0\nCOMP RIGHT\nCOMP LEFT\n");
+}
+
+TEST_CASE_FIXTURE(RunFixture, "frame words of one block whose order would matter are refused") {
+  struct Case {
+    std::string_view block, finding;
+  };
+  static constexpr Case kCases[] = {
+      {"G52 X1 G68", "two frame words with values"},
+      {"G69 G68 X1 Y1 RPL=5", "beside the word that ends it"},
+      {"G50 G51 X1 P2", "beside the word that ends it"},
+      {"G50.1 G51.1 X1", "beside the word that ends it"},
+      {"G50 G68 X1 Y1 RPL=5", "a rotation beside the end of a scale"},
+      {"G50 G52 X1 G50.1", "the end of a mirror beside another word"},
+  };
+  for (const Case& row : kCases) {
+    RunFixture beside;
+    beside.Trace({"G0 X0 Y0 Z0", "G51 X0 Y0 P2", row.block});
+    CHECK(beside.result.outcome == Outcome::kRefused);
+    CHECK_MESSAGE(beside.Finding().find(row.finding) != std::string::npos, row.block);
+  }
+}
+
 }  // namespace ncport::exec

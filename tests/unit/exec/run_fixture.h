@@ -186,6 +186,13 @@ struct RunFixture {
         {"AROT", {Op::kFrame, Index(kAddRotate)}},
         {"ASCALE", {Op::kFrame, Index(kAddScale)}},
         {"AMIRROR", {Op::kFrame, Index(kAddMirror)}},
+        {"G52", {Op::kFrame, Index(kLocalShift)}},
+        {"G68", {Op::kFrame, Index(kRotateAbout)}},
+        {"G69", {Op::kFrame, Index(kRotateEnd)}},
+        {"G51", {Op::kFrame, Index(kScaleAbout)}},
+        {"G50", {Op::kFrame, Index(kScaleEnd)}},
+        {"G51.1", {Op::kFrame, Index(kMirrorAbout)}},
+        {"G50.1", {Op::kFrame, Index(kMirrorEnd)}},
         {"M0", {Op::kStop}},
         {"M1", {Op::kOptionalStop}},
         {"M3", {Op::kSpindle, 0, static_cast<std::uint32_t>(ir::SpindleState::kCw)}},
@@ -244,6 +251,7 @@ struct RunFixture {
         {"G4F", {Op::kDwellSeconds}},
         {"G4S", {Op::kDwellRevolutions}},
         {"RPL", {Op::kFrameAngle}},
+        {"P", {Op::kFrameFactor}},
         {"SETAL", {Op::kAlarm, Index(ir::AlarmKind::kByNumber)}},
     };
     std::size_t split = token.find('=');

@@ -101,8 +101,9 @@ std::vector<backends::ProgramHeader> HeadersOf(const Context& context, const Pro
       }
       for (const std::string& assumption : translation.assumptions) lines.push_back("ASSUMED: " + assumption);
       std::set<std::string> lost;
-      for (const backends::Loss& loss : translation.losses) lost.insert(loss.what.substr(0, loss.what.find(' ')));
-      for (const std::string& what : lost) lines.push_back("LOST: " + what + ", KEPT AS COMMENT");
+      for (const backends::Loss& loss : translation.losses)
+        lost.insert(loss.what.substr(0, loss.what.find(' ')) + (loss.left_out ? ", LEFT OUT" : ", KEPT AS COMMENT"));
+      for (const std::string& what : lost) lines.push_back("LOST: " + what);
       for (const std::string& added : translation.added) lines.push_back("ADDED: " + added);
     }
     for (const ir::transform::CellMapping& cell : translation.cells) {

@@ -49,6 +49,7 @@ struct BlockPlace {
 struct Loss {
   SourceRange at;
   std::string what;
+  bool left_out = false;  // no comment keeps it
 };
 
 /// The translated module and everything that is to be told of it.

@@ -262,7 +262,7 @@ bool MapAuxiliaries(const RaiseInput& input, Translation& out, diag::Sink& sink)
           const auto target = NumberBehind(rule->target, 'M');
           if (rule->target == "drop") {
             use.target.reset();
-            out.losses.push_back({module.RangeOf(block, word), name + " left out, as [mcodes] says"});
+            out.losses.push_back({module.RangeOf(block, word), name + " left out, as [mcodes] says", true});
           } else if (target) {
             use.target = *target;
             word.value = make.Literal(*target, ir::Type::kInt);

@@ -1,5 +1,6 @@
 #include "backends/fanuc/dwells.h"
 
+#include <algorithm>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -33,6 +34,27 @@ Word FeedModeWord(FeedMode mode) {
   return word;
 }
 
+/// The first call by which the source comes to a program that ncport brings along, or nothing.
+SourceRange CallOf(const Module& module, ProgramId library) {
+  std::vector<ProgramId> wanted{library};
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    for (const ProgramId caller : module.programs.Ids()) {
+      for (const BlockId id : module.programs[caller].blocks) {
+        const Block& block = module.blocks[id];
+        for (const WordId word_id : block.words) {
+          const Word& word = module.words[word_id];
+          const bool call = word.op == WordOp::kCall || word.op == WordOp::kModalCall;
+          if (!call || !word.Extra<ir::CallId>().Valid()) continue;
+          if (module.calls[word.Extra<ir::CallId>()].program != wanted[i]) continue;
+          if (!module.programs[caller].library) return module.RangeOf(block, word);
+          if (std::find(wanted.begin(), wanted.end(), caller) == wanted.end()) wanted.push_back(caller);
+        }
+      }
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 bool MapDwells(const RaiseInput& input, Translation& out, diag::Sink& sink) {
@@ -64,7 +86,13 @@ bool MapDwells(const RaiseInput& input, Translation& out, diag::Sink& sink) {
       if (!seconds && !turns) continue;
       const auto refuse = [&](std::string_view what, std::string_view help) {
         ok = false;
-        sink.Report(diag::Code::kNotExpressible, module.RangeOf(block), what, profile.name).help = help;
+        const SourceRange place = module.RangeOf(block);
+        // In a cycle of ncport's own there is nothing to mend: the finding stands at the call.
+        const SourceRange call = module.programs[program].library ? CallOf(module, program) : SourceRange{};
+        diag::Diagnostic& finding =
+            sink.Report(diag::Code::kNotExpressible, call.Valid() ? call : place, what, profile.name);
+        finding.help = help;
+        if (call.Valid()) finding.notes.push_back({place, "the cycle dwells here"});
       };
       Block changed = block;
       editor.SetWords(changed, words);

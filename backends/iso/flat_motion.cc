@@ -1,6 +1,7 @@
 // Motions of the flat writer: straight, arcs, threads.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -11,6 +12,8 @@ namespace ncport::backends::iso {
 namespace {
 
 constexpr char kLetters[] = "XYZABCUVW";
+constexpr int kRevolutionDecimals = 4;    // of a feed per revolution
+constexpr double kFeedTolerance = 0.001;  // error of a rounded feed, of its value
 
 /// The two axes of a plane in its order, and the axis across it.
 struct PlaneAxes {
@@ -123,15 +126,21 @@ void FlatWriter::AppendFeed(const exec::Event& event) {
   // As inverse time it is no length, and each block needs its own.
   const bool inverse = event.feed_mode == ir::FeedMode::kInverseTime;
   const double shown = inverse ? event.feed : Length(event.feed);
-  if (!(std::fabs(shown * feed_scale_) < kMaxIncrements)) {
+  // A feed per revolution has 0.0001 mm where lengths have less (fanuc-2.2).
+  const int decimals =
+      event.feed_mode == ir::FeedMode::kPerRevolution ? std::max(decimals_, kRevolutionDecimals) : decimals_;
+  const double scale = ScaleOf(decimals);
+  if (!(std::fabs(shown * scale) < kMaxIncrements)) {
     Refuse(diag::Code::kOutOfRange, fmt::format("feed {}", shown), "what a word can hold");
     return;
   }
-  const std::int64_t feed = RoundToIncrements(shown, feed_scale_);
+  const std::int64_t feed = RoundToIncrements(shown, scale);
   if (feed == feed_ && !inverse) return;
-  if (feed <= 0) Refuse(diag::Code::kWordTooCoarse, fmt::format("feed {}", event.feed), fmt::format("{}", decimals_));
+  if (feed <= 0 || std::fabs(static_cast<double>(feed) / scale - shown) > kFeedTolerance * shown)
+    Refuse(diag::Code::kWordTooCoarse, fmt::format("feed {}", event.feed), fmt::format("{}", decimals));
   feed_ = feed;
-  AppendNumber('F', feed);
+  if (out_.size() != line_begin_) out_.Append(' ');
+  AppendWord(out_, 'F', feed, decimals);
 }
 
 void FlatWriter::Straight(const exec::Event& event, ir::Motion motion) {

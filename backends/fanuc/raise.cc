@@ -13,6 +13,7 @@
 #include "backends/fanuc/corners.h"
 #include "backends/fanuc/dwells.h"
 #include "backends/fanuc/frame_blocks.h"
+#include "backends/fanuc/limit_m_words.h"
 #include "backends/fanuc/limit_nesting.h"
 #include "backends/fanuc/mazak_lathe_rules.h"
 #include "backends/fanuc/mill_tools.h"
@@ -296,7 +297,7 @@ void DropForeignModes(const RaiseInput& input, Translation& out) {
         const bool known = dialects::fanuc::Codes(system).FindMeaning(word.op, word.index) != nullptr;
         if (path && !known) {
           out.path_lost = true;
-          out.losses.push_back({module.RangeOf(block, word), "path mode"});
+          out.losses.push_back({module.RangeOf(block, word), "path mode", true});
         } else {
           kept.push_back(word);
         }
@@ -385,6 +386,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
     FrameToolChanges(input, out);
     FrameMainPrograms(input, out);
   }
+  LimitMWords(input, out);  // behind all that makes blocks
   ok = CheckLegal(input, out, sink) && ok && framed;
   if (ok && IsMazakLathe(profile)) ok = CheckMazakLathe(input, out, sink);
   return ok;

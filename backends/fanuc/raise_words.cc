@@ -397,10 +397,12 @@ bool MapAuxiliaries(const RaiseInput& input, Translation& out, diag::Sink& sink)
         } else if (rule->target == "drop") {
           use.target.reset();
           changed = true;
-          out.losses.push_back({module.RangeOf(block, word), name + " left out, as [mcodes] says"});
+          out.losses.push_back({module.RangeOf(block, word), name + " left out, as [mcodes] says", true});
         } else {
           use.target = NumberBehind(rule->target, 'M');
-          kept.push_back(TextWord(module, rule->target));
+          Word text = TextWord(module, rule->target);
+          text.phase = word.phase;  // before or after the motion, as in the source
+          kept.push_back(text);
           changed = true;
         }
         out.aux.push_back(use);
@@ -495,29 +497,32 @@ bool ArrangeSpindle(const RaiseInput& input, Translation& out, diag::Sink& sink)
       };
       // The limit first: without it the spindle would run up as the tool nears the axis (hazards#5).
       if (!limit.empty()) insert(limit);
-      const bool alone = rest.empty();
-      if (alone) {
-        Block changed = module.blocks[id];
-        editor.SetWords(changed, spindle);
-        module.blocks[id].words = changed.words;
-        if (spindle.empty()) editor.Remove(id);
-        continue;
+      // Words before the motion stand in front of it, M5 behind (sinumerik-8.10), and with it all that comes after the
+      // motion, in its order: M5 behind M30 would never run.
+      const auto acts_behind = [](const Word& word) { return word.phase >= ir::Phase::kAfter; };
+      std::vector<Word> behind;
+      if (std::any_of(spindle.begin(), spindle.end(), acts_behind)) {
+        for (const WordId word_id : block.words) {
+          if (acts_behind(module.words[word_id])) behind.push_back(module.words[word_id]);
+        }
+        std::erase_if(spindle, acts_behind);
+        std::erase_if(rest, acts_behind);
       }
-      Block changed = block;
+      if (rest.empty()) {  // what is left stands in one block
+        spindle.insert(spindle.end(), behind.begin(), behind.end());
+        rest = std::exchange(spindle, {});
+        behind.clear();
+      }
+      Block changed = module.blocks[id];
       editor.SetWords(changed, rest);
       module.blocks[id].words = changed.words;
-      if (!spindle.empty()) {
-        // Words before the motion stand in front of it, M5 behind.
-        const bool stops = std::all_of(spindle.begin(), spindle.end(),
-                                       [](const Word& word) { return word.phase == ir::Phase::kAfter; });
-        if (stops) {
-          Block made = editor.MakeBlock(id);
-          made.skip_level = block.skip_level;
-          editor.SetWords(made, spindle);
-          editor.InsertAfter(id, made);
-        } else {
-          insert(spindle);
-        }
+      if (rest.empty()) editor.Remove(id);
+      if (!spindle.empty()) insert(spindle);
+      if (!behind.empty()) {
+        Block made = editor.MakeBlock(id);
+        made.skip_level = block.skip_level;
+        editor.SetWords(made, behind);
+        editor.InsertAfter(id, made);
       }
     }
     editor.Apply();

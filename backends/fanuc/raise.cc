@@ -22,6 +22,7 @@
 #include "backends/fanuc/source_meanings.h"
 #include "backends/fanuc/thread_leads.h"
 #include "backends/fanuc/turning_offsets.h"
+#include "backends/fanuc/word_digits.h"
 #include "dialects/fanuc/words.h"
 #include "ir/transform/absolute_dimensions.h"
 #include "ir/transform/linear_form.h"
@@ -357,6 +358,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   dimensions.sub_entry = entry;
   ok = AbsoluteDimensions(module, machine, dimensions, sink) && ok;
   ok = ThreadLeads(input, out, sink) && ok;
+  ok = RoundFeeds(input, out, sink) && ok;  // while the blocks still say which of them are threads
   ok = NameTurningOffsets(input, out, sink) && ok;
   ok = MapWorkOffsets(input, out, sink) && ok;
   ok = MapAuxiliaries(input, out, sink) && ok;
@@ -388,6 +390,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   }
   LimitMWords(input, out);  // behind all that makes blocks
   ok = CheckLegal(input, out, sink) && ok && framed;
+  ok = ok && CheckDigits(input, out, sink);
   if (ok && IsMazakLathe(profile)) ok = CheckMazakLathe(input, out, sink);
   return ok;
 }

@@ -58,6 +58,12 @@ bool LeadsIn(const Word& word) {
          word.op == WordOp::kSpeedMode || word.op == WordOp::kSpeedLimit;
 }
 
+/// G41, G42: in force before the M functions of its block. G40 stays with the motion, without one it would make its
+/// own.
+bool StartsCompensation(const Word& word) {
+  return word.op == WordOp::kCutterComp && word.index != static_cast<std::uint8_t>(ir::CutterComp::kOff);
+}
+
 using Words = std::vector<Word>;
 
 /// The parts of a block, in order.
@@ -68,11 +74,16 @@ class Parts {
   /// Without motion or anything else that belongs between them: cut behind each full part.
   std::vector<Words> Split(const Block& block) {
     Words before, main, after;
+    bool starts = false;
+    for (const WordId id : block.words) starts = starts || StartsCompensation(module_.words[id]);
+    std::size_t first = 0;  // words of the compensation in front of `before`
     std::size_t in_before = 0, in_after = 0;
     for (const WordId id : block.words) {
       const Word& word = module_.words[id];
       const std::size_t count = CountOf(module_, word);
-      if (count == 0 && !LeadsIn(word)) {
+      if (starts && (StartsCompensation(word) || word.op == WordOp::kRadiusOffset)) {
+        before.insert(before.begin() + static_cast<std::ptrdiff_t>(first++), word);
+      } else if (count == 0 && !LeadsIn(word)) {
         main.push_back(word);
       } else if (word.phase >= ir::Phase::kAfter) {
         after.push_back(word);

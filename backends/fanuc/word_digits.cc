@@ -64,7 +64,7 @@ void Write(Module& module, Word& word, double value, int decimals) {
   literal.format.int_digits = static_cast<std::uint8_t>(point == std::string::npos ? text.size() : point);
   literal.format.decimals = static_cast<std::uint8_t>(point == std::string::npos ? 0 : last - point);
   literal.format.flags = NumberFormat::kPoint;
-  word.value = module.exprs.Add(literal);
+  word.value = module.AddExpr(literal, {word.begin, word.length});
 }
 
 }  // namespace

@@ -198,7 +198,8 @@ TEST_CASE("normal form of single blocks") {
       {"    G1 X1   ; with  gap", "    G1 X1   ; with  gap"},
       {"", ""},
   };
-  for (const auto& [text, expected] : kForms) {
+  for (const auto& [written, expected] : kForms) {
+    const auto& text = written;  // clang captures no structured bindings
     CAPTURE(text);
     CHECK(Printed(text) == expected);
   }

@@ -66,7 +66,8 @@ TEST_CASE("anything but literal words is a finding, one a block, and the next bl
       {"N10 N20 X1.", "NC1002 N20"}, {"X1. ; text", "NC1002 ;"},  {"GOTO 10", "NC1002 O"},
       {"M98 P1000", "NC1002 P1000"},
   };
-  for (const auto& [block, finding] : kWrong) {
+  for (const auto& [wrong, finding] : kWrong) {
+    const std::string& block = wrong;  // clang captures no structured bindings
     CAPTURE(block);
     const ReadText read(block + "\nG0 X1.\n");
     CHECK(read.Finding() == finding);

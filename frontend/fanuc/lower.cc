@@ -1,7 +1,8 @@
 #include "frontend/fanuc/lower.h"
 
-#include "base/result.h"
+#include <cmath>
 
+#include "base/result.h"
 namespace ncport::frontend::fanuc {
 
 using ir::WordOp;
@@ -55,7 +56,7 @@ bool Lowering::Replay(const Recipe& recipe, std::span<const Token> tokens, std::
   skips_ = false;
   for (const Token& token : tokens) {
     if (static_cast<TokenKind>(token.kind) != TokenKind::kWordValue || token.sub != 'G') continue;
-    const auto tenths = static_cast<std::uint32_t>(token.number * 10 + 0.5);
+    const double tenths = std::floor(token.number * 10 + 0.5);  // any number of digits may stand there
     macro_block_ |= tenths == 650 || tenths == 660 || tenths == 661;
   }
   for (const Action& action : recipe.actions) {

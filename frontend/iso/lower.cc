@@ -179,7 +179,8 @@ bool Lowering::AddTool(const Action& action) {
 
 bool Lowering::AddExtendedOffset(const Action& action) {
   const Token& number = tokens_[action.last];
-  if (number.number < 1 || number.number != static_cast<double>(static_cast<std::uint16_t>(number.number))) {
+  if (!(number.number >= 1 && number.number <= 65535) ||
+      number.number != static_cast<double>(static_cast<std::uint16_t>(number.number))) {
     return Fail(Code::kBadNumber, number, "the number of a work offset is whole");
   }
   Add(WordOp::kWorkOffset, action, Literal(number)).extra = 54;

@@ -122,7 +122,7 @@ std::optional<std::string> ReadBytes(const std::string& path, std::string& error
   std::size_t room = S_ISREG(info.st_mode) ? static_cast<std::size_t>(info.st_size) + 1 : std::size_t{1} << 16U;
   std::size_t size = 0;
   while (true) {
-    if (bytes.size() < size + room) bytes.resize(size + room);
+    if (size == bytes.size()) bytes.resize(size + room);
     const ssize_t count = read(fd, bytes.data() + size, bytes.size() - size);
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) return fail(errno);

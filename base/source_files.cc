@@ -24,6 +24,9 @@ FileId SourceFiles::Add(std::string name, std::string utf8_text) {
   file->text = std::move(utf8_text);
   const std::string_view text = file->text;
   std::vector<std::uint32_t>& starts = file->starts;
+  constexpr std::size_t kBytesALine =
+      16;  // fewer than lines of programs have; room that is never touched costs nothing
+  starts.reserve(file->text.size() / kBytesALine + 2);
   starts.push_back(0);
   const bool has_cr = text.find('\r') != std::string_view::npos;
   const char* const begin = text.data();

@@ -28,6 +28,43 @@ bool UsesTargets(const ir::Call& call) { return call.form == ir::CallForm::kBloc
 
 std::uint32_t SaturatingAdd(std::uint32_t a, std::uint32_t b) { return a > kNowhere / 2 - b ? kNowhere / 2 : a + b; }
 
+/// Depth of each expression, or nothing if none is deeper than kDeepestExpression.
+std::vector<std::uint16_t> DepthsOfDeep(const ir::Module& module) {
+  // Numbers nest in nothing, and most modules have few other expressions.
+  std::size_t operations = 0;
+  for (const ir::Expr& expr : module.exprs.All()) operations += expr.op != ir::ExprOp::kLiteral ? 1U : 0U;
+  if (operations < kDeepestExpression) return {};
+  std::vector<std::uint16_t> depths(module.exprs.Size(), 1);
+  bool deep = false;
+  // Children stand before their parents.
+  for (const ExprId id : module.exprs.Ids()) {
+    const ir::Expr& expr = module.exprs[id];
+    if (expr.op == ir::ExprOp::kLiteral) continue;
+    std::uint16_t depth = 0;
+    const auto take = [&](std::uint32_t child) {
+      if (child < id.value) depth = std::max(depth, depths[child]);
+    };
+    switch (ir::OperandsOf(expr.op)) {
+      case ir::Operands::kLeaf:
+        break;
+      case ir::Operands::kUnary:
+        take(expr.a);
+        break;
+      case ir::Operands::kBinary:
+        take(expr.a);
+        take(expr.b);
+        break;
+      case ir::Operands::kList:
+        for (std::uint32_t i = 0; i < expr.count; ++i) take(module.Item(expr.b + i).value);
+        break;
+    }
+    depths[id.value] = static_cast<std::uint16_t>(std::min(depth + 1, 0xFFFF));
+    deep = deep || depths[id.value] > kDeepestExpression;
+  }
+  if (!deep) depths.clear();
+  return depths;
+}
+
 }  // namespace
 
 Linked::Linked(const ir::Module& module, const ir::Machine& machine) : module_(&module), machine_(&machine) {
@@ -110,33 +147,7 @@ std::uint32_t Linked::FrameSize(ir::ProgramId program) const {
 
 void Linked::ClassifyBlocks() {
   const ir::Module& module = *module_;
-  // Depth of each expression: children stand before their parents.
-  std::vector<std::uint16_t> depths(module.exprs.Size(), 1);
-  bool deep = false;
-  for (const ExprId id : module.exprs.Ids()) {
-    const ir::Expr& expr = module.exprs[id];
-    if (expr.op == ir::ExprOp::kLiteral) continue;
-    std::uint16_t depth = 0;
-    const auto take = [&](std::uint32_t child) {
-      if (child < id.value) depth = std::max(depth, depths[child]);
-    };
-    switch (ir::OperandsOf(expr.op)) {
-      case ir::Operands::kLeaf:
-        break;
-      case ir::Operands::kUnary:
-        take(expr.a);
-        break;
-      case ir::Operands::kBinary:
-        take(expr.a);
-        take(expr.b);
-        break;
-      case ir::Operands::kList:
-        for (std::uint32_t i = 0; i < expr.count; ++i) take(module.Item(expr.b + i).value);
-        break;
-    }
-    depths[id.value] = static_cast<std::uint16_t>(std::min(depth + 1, 0xFFFF));
-    deep = deep || depths[id.value] > kDeepestExpression;
-  }
+  const std::vector<std::uint16_t> depths = DepthsOfDeep(module);
 
   uses_.assign(module.blocks.Size(), 0);
   for (const BlockId id : module.blocks.Ids()) {
@@ -150,7 +161,7 @@ void Linked::ClassifyBlocks() {
     }
     if ((block.flags & ir::Block::kRefused) != 0) use |= kUseRefused;
     // Expressions are reached from words in many ways; a module with a deep one refuses every block that computes.
-    if (deep && use != 0) {
+    if (!depths.empty() && use != 0) {
       for (const ir::WordId word : block.words) {
         const ir::ExprId value = module.words[word].value;
         if ((value.Valid() && depths[value.value] > kDeepestExpression)) use |= kUseTooDeep;

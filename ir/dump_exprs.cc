@@ -96,8 +96,8 @@ void DumpWriter::Suffixes(ExprId id) {
     Put(':');
     Known(expr.type);
   }
-  if (!options_.places || id.value >= module_.expr_places.size()) return;
-  const ExprPlace place = module_.expr_places[id.value];
+  if (!options_.places) return;
+  const ExprPlace place = module_.expr_places.Of(id);
   if (place.begin == 0 && place.length == 0) return;
   Put('@');
   Number(place.begin);

@@ -29,12 +29,15 @@ SourceRange Module::RangeOf(const Block& block, const Word& word) const {
 }
 
 SourceRange Module::RangeOf(const Block& block, ExprId expr) const {
-  SourceRange range = RangeOf(block);
-  if (expr.value < expr_places.size()) {
-    const ExprPlace place = expr_places[expr.value];
-    range.begin = place.begin;
-    range.end = place.begin + place.length;
+  const ExprPlace place = expr_places.Of(expr);
+  if (place.length == 0 && expr.Valid()) {
+    for (const WordId word : block.words) {
+      if (words[word].value == expr) return RangeOf(block, words[word]);
+    }
   }
+  SourceRange range = RangeOf(block);
+  range.begin = place.begin;
+  range.end = place.begin + place.length;
   return range;
 }
 

@@ -7,14 +7,10 @@
 
 #include "base/store.h"
 #include "base/string_pool.h"
+#include "ir/expr_places.h"
 #include "ir/nodes.h"
 
 namespace ncport::ir {
-
-/// Bytes of a source line that an expression came from.
-struct ExprPlace {
-  std::uint32_t begin = 0, length = 0;
-};
 
 /// Owner of every record of a set of programs. Copyable; passes that restructure build new blocks at the end of
 /// `blocks` and give the program its new range.
@@ -45,24 +41,23 @@ struct Module {
   std::vector<StringId> axis_names;             // of axes from kFirstNamedAxis on
   std::vector<StringId> file_names;             // FileId -> name, for dumps and traces
 
-  std::vector<ExprPlace> expr_places;  // beside `exprs` (same index): for messages only
+  ExprPlaces expr_places;
   /// Spelling of a literal with NumberFormat::kAsText, by Expr::count index; entry 0 unused.
   std::vector<StringId> literal_texts{StringId{}};
 
   ExprId AddExpr(const Expr& expr, ExprPlace place = {}) {
-    expr_places.push_back(place);
-    return exprs.Add(expr);
+    const ExprId id = exprs.Add(expr);
+    expr_places.Add(id, place);
+    return id;
   }
   /// As AddExpr, with a default expression to be filled where it stands; its id is LastExpr().
-  Expr& EmplaceExpr(ExprPlace place) {
-    expr_places.push_back(place);
-    return exprs.Emplace();
-  }
+  Expr& EmplaceExpr() { return exprs.Emplace(); }
   [[nodiscard]] ExprId LastExpr() const { return ExprId{exprs.Size() - 1}; }
   [[nodiscard]] ExprId Item(std::uint32_t index) const { return expr_items[index]; }
   [[nodiscard]] std::string_view View(StringId id) const { return id.Valid() ? strings.View(id) : std::string_view{}; }
 
-  /// Source place of a word or an expression of a block.
+  /// Source place of a word or an expression of a block. The value of a word without a place of its own stands where
+  /// the word stands.
   [[nodiscard]] SourceRange RangeOf(const Block& block, const Word& word) const;
   [[nodiscard]] SourceRange RangeOf(const Block& block, ExprId expr) const;
   [[nodiscard]] SourceRange RangeOf(const Block& block) const;

@@ -138,7 +138,12 @@ class Verifier {
   // --- expressions
 
   bool Exprs() {
-    if (!Check(m_.expr_places.size() == m_.exprs.Size(), "places and expressions differ in number")) return false;
+    const auto& places = m_.expr_places.All();
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (!Check(m_.exprs.Contains(places[i].expr), "a place of an expression that is not there")) return false;
+      if (!Check(i == 0 || places[i - 1].expr.value < places[i].expr.value, "places of expressions out of order"))
+        return false;
+    }
     depths_.assign(m_.exprs.Size(), 1);
     nodes_.assign(m_.exprs.Size(), 1);
     for (const ExprId id : m_.exprs.Ids()) {

@@ -21,7 +21,7 @@ ModuleMark::ModuleMark(const ir::Module& module)
 void ModuleMark::Rollback(ir::Module& module) const {
   module.words.Resize(words_);
   module.exprs.Resize(exprs_);
-  module.expr_places.resize(exprs_);
+  module.expr_places.Truncate(exprs_);
   module.expr_items.resize(expr_items_);
   module.variables.Resize(variables_);
   module.jumps.Resize(jumps_);

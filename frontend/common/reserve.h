@@ -15,7 +15,6 @@ inline void ReserveFor(std::size_t bytes, ir::Module& module) {
   const std::size_t words = bytes / kBytesAWord;
   module.words.Reserve(module.words.Size() + words);
   module.exprs.Reserve(module.exprs.Size() + words);
-  module.expr_places.reserve(module.expr_places.size() + words);
 }
 
 }  // namespace ncport::frontend

@@ -33,7 +33,8 @@ ExprId Lowering::Pop() {
 
 // Every number is REAL: 7 and 7. are one value inside macros (fanuc-2.2).
 ExprId Lowering::Literal(const Token& token) {
-  Expr& expr = module_.EmplaceExpr({token.offset, token.length});
+  Expr& expr = module_.EmplaceExpr();
+  module_.expr_places.Add(module_.LastExpr(), {token.offset, token.length});
   expr.type = Type::kReal;
   expr.format = token.format;
   expr.number = token.number;
@@ -120,7 +121,7 @@ bool Lowering::PushSystem(const Token& token, const words::SystemRange& range) {
   }
   const ExprId items[] = {index};
   const ExprId id = List(ExprOp::kSystem, system.value, {items, index.Valid() ? 1U : 0U}, range.type, 0);
-  module_.expr_places[id.value] = {token.offset, token.length};
+  module_.expr_places.Set(id, {token.offset, token.length});
   values_.push_back(id);
   return true;
 }
@@ -159,7 +160,7 @@ bool Lowering::IsCondition(ExprId id) const { return id.Valid() && module_.exprs
 
 bool Lowering::NeedNumber(ExprId id) {
   if (!IsCondition(id) || profile_.fanuc.truth_values.Or(false)) return true;
-  const ir::ExprPlace place = module_.expr_places[id.value];
+  const ir::ExprPlace place = module_.expr_places.Of(id);
   error_ = {.code = Code::kTypeMismatch,
             .begin = place.begin,
             .length = place.length,
@@ -308,7 +309,7 @@ bool Lowering::CallFunction(const Action& action) {
   const std::vector<ExprId> arguments(values_.begin() + static_cast<std::ptrdiff_t>(first), values_.end());
   values_.resize(first);
   const ExprId id = List(ExprOp::kFunction, static_cast<std::uint32_t>(function), arguments, Type::kReal, kArithmetic);
-  module_.expr_places[id.value] = {token.offset, At(action.last).End() - token.offset};
+  module_.expr_places.Set(id, {token.offset, At(action.last).End() - token.offset});
   values_.push_back(id);
   return true;
 }

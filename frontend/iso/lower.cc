@@ -61,7 +61,7 @@ ir::Word& Lowering::Add(WordOp op, const Action& action, ir::ExprId value, std::
 }
 
 ir::ExprId Lowering::Literal(const Token& token) {
-  ir::Expr& expr = module_.EmplaceExpr({token.offset, token.length});
+  ir::Expr& expr = module_.EmplaceExpr();
   expr.op = ir::ExprOp::kLiteral;
   expr.type = (token.format.flags & ir::NumberFormat::kPoint) != 0 ? ir::Type::kReal : ir::Type::kInt;
   expr.format = token.format;

@@ -24,7 +24,7 @@ ExprId Lowering::Pop() {
 }
 
 ExprId Lowering::Literal(const Token& token) {
-  Expr& expr = module_.EmplaceExpr({token.offset, token.length});
+  Expr& expr = module_.EmplaceExpr();
   expr.op = ExprOp::kLiteral;
   expr.type = (token.format.flags & ir::NumberFormat::kPoint) != 0 ? Type::kReal : Type::kInt;
   expr.format = token.format;
@@ -117,6 +117,7 @@ bool Lowering::DoValue(const Action& action) {
   switch (static_cast<Step>(action.op)) {
     case Step::kNumber:
       values_.push_back(Literal(token));
+      module_.expr_places.Add(values_.back(), {token.offset, token.length});
       return true;
     case Step::kText:
       expr.op = ExprOp::kText;

@@ -290,7 +290,7 @@ bool Resolver::Fits(ExprId& id, Type type) {
   convert.flags = ir::Expr::kImplicit;
   convert.a = id.value;
   convert.b = Id<void>::kNone;
-  id = module_.AddExpr(convert, module_.expr_places[id.value]);
+  id = module_.AddExpr(convert, module_.expr_places.Of(id));
   return true;
 }
 

@@ -341,11 +341,11 @@ ExprId Lowering::Value(ExprId id) {
       return id;
     case Operands::kUnary:
       copy.a = Value(ExprId{expr.a}).value;
-      return copy.a == expr.a ? id : module_.AddExpr(copy, module_.expr_places[id.value]);
+      return copy.a == expr.a ? id : module_.AddExpr(copy, module_.expr_places.Of(id));
     case Operands::kBinary:
       copy.a = Value(ExprId{expr.a}).value;
       copy.b = Value(ExprId{expr.b}).value;
-      return copy.a == expr.a && copy.b == expr.b ? id : module_.AddExpr(copy, module_.expr_places[id.value]);
+      return copy.a == expr.a && copy.b == expr.b ? id : module_.AddExpr(copy, module_.expr_places.Of(id));
     case Operands::kList:
       return List(expr);
   }

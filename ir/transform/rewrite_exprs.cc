@@ -7,7 +7,7 @@ namespace ncport::ir::transform {
 ExprId RewriteExpr(Module& module, ExprId root, const RewriteNode& rewrite) {
   if (!root.Valid()) return root;
   Expr expr = module.exprs[root];
-  const auto place = module.expr_places[root.value];
+  const auto place = module.expr_places.Of(root);
   bool changed = false;
   const auto child = [&](std::uint32_t value) {
     const ExprId made = RewriteExpr(module, ExprId{value}, rewrite);

@@ -192,7 +192,7 @@ ProgramId Pass::CopyParameters(ProgramId program, ProgramId part) {
     if (twin == twins.end()) return id;
     Expr copy = expr;
     copy.a = twin->second.value;
-    return module.AddExpr(copy, module.expr_places[id.value]);
+    return module.AddExpr(copy, module.expr_places.Of(id));
   });
   return part;
 }

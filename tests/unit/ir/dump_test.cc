@@ -131,7 +131,7 @@ TEST_CASE("ir dump: what was read stands in the records") {
   CHECK(x.flags == Word::kEqualSign);
   CHECK(m.exprs[x.value].number == 10.5);
   CHECK(m.exprs[x.value].format == NumberFormat{2, 2, NumberFormat::kPoint});
-  CHECK(m.expr_places[x.value.value].begin == 9);
+  CHECK(m.expr_places.Of(x.value).begin == 9);
   CHECK(m.words[block.words[2]].mode == ValueMode::kAbsolute);
   CHECK(m.words[block.words[2]].index == 9);
   CHECK(m.words[block.words[3]].index == 10);

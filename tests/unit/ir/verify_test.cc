@@ -122,7 +122,12 @@ TEST_CASE("ir verify: expressions") {
   CHECK(Has(After([](Module& m) { Find(m, ExprOp::kLiteral).number = std::numeric_limits<double>::infinity(); }),
             "not finite"));
   CHECK(Has(After([](Module& m) { Find(m, ExprOp::kLiteral).count = 1; }), "do not agree"));
-  CHECK(Has(After([](Module& m) { m.expr_places.pop_back(); }), "places and expressions differ"));
+  CHECK(Has(After([](Module& m) { m.expr_places.Add(ExprId{kFar}, {0, 1}); }), "place of an expression that is not"));
+  CHECK(Has(After([](Module& m) {
+              m.expr_places.Add(ExprId{std::size_t{2}}, {0, 1});
+              m.expr_places.Add(ExprId{std::size_t{1}}, {0, 1});
+            }),
+            "out of order"));
 }
 
 TEST_CASE("ir verify: names are gone after resolution") {

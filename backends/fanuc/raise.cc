@@ -136,6 +136,28 @@ bool NamePrograms(const RaiseInput& input, const SplitResult& split, Translation
   return ok;
 }
 
+/// What [ranges] promises of parameters, where both ends are numbers.
+std::vector<ir::analysis::DeclaredRange> DeclaredRanges(const RaiseInput& input, const Module& module) {
+  std::vector<ir::analysis::DeclaredRange> declared;
+  if (input.config == nullptr) return declared;
+  const auto same = [](std::string_view a, std::string_view b) {
+    return std::ranges::equal(a, b, [](char x, char y) {
+      return std::toupper(static_cast<unsigned char>(x)) == std::toupper(static_cast<unsigned char>(y));
+    });
+  };
+  for (const dialects::ValueRange& range : input.config->ranges) {
+    if (!range.least_of.empty() || !range.most_of.empty()) continue;
+    for (const ir::VariableId id : module.variables.Ids()) {
+      const ir::Variable& variable = module.variables[id];
+      if (variable.scope != ir::Scope::kParameter || !variable.owner.Valid()) continue;
+      const std::string name =
+          fmt::format("{}.{}", module.View(module.programs[variable.owner].name), module.View(variable.name));
+      if (same(range.name, name)) declared.push_back({id, range.least, range.most});
+    }
+  }
+  return declared;
+}
+
 /// Without brackets and conversions that change nothing.
 ir::ExprId BareValue(const Module& module, ir::ExprId id) {
   while (module.exprs[id].op == ir::ExprOp::kGroup || module.exprs[id].op == ir::ExprOp::kPlus ||
@@ -356,6 +378,8 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   AbsoluteDimensionsConfig dimensions;
   dimensions.diameter_axis = profile.diameter.Is(dialects::DiameterRule::kYes) ? 0 : 0xFF;
   dimensions.sub_entry = entry;
+  dimensions.target = profile.name;
+  dimensions.declared = DeclaredRanges(input, module);
   ok = AbsoluteDimensions(module, machine, dimensions, sink) && ok;
   ok = ThreadLeads(input, out, sink) && ok;
   ok = RoundFeeds(input, out, sink) && ok;  // while the blocks still say which of them are threads

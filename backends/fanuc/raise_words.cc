@@ -544,10 +544,11 @@ void NameMotions(const RaiseInput& input, Translation& out) {
       bool moves = false, named = false, leaves = false, shift = false;
       for (const WordId word_id : block.words) {
         const Word& word = module.words[word_id];
-        moves = moves || word.op == WordOp::kAxis || word.op == WordOp::kCenter || word.op == WordOp::kRadius;
+        moves = moves || word.op == WordOp::kAxis || word.op == WordOp::kCenter || word.op == WordOp::kRadius ||
+                word.op == WordOp::kPolarAngle || word.op == WordOp::kPolarRadius;
         named = named || word.op == WordOp::kMotion;
         leaves = leaves || ir::DefaultPhaseOf(word.op) == ir::Phase::kFlow || word.op == WordOp::kInert;
-        shift = shift || word.op == WordOp::kFrame;
+        shift = shift || word.op == WordOp::kFrame || word.op == WordOp::kPole;
       }
       if (shift) continue;  // its axis words are no move
       if (block.label.Valid() || block.number != Block::kNoNumber || leaves || block.skip_level != Block::kNoSkip)

@@ -3,21 +3,29 @@
 // Positions are kept as sums; where ways with different sums meet, or a variable of a sum changes, the position is held
 // in a local (POS_X). A step away and back costs nothing, and nothing is rounded on the way: no drift.
 //
-// Afterwards all Axis words are kAbsolute and all Center words kStep (from the start point, radius), Distance and
-// Diameter words are gone, and lengths are mm.
+// What only the source has is written as end points and centres: arcs by opening angle or intermediate point, polar
+// words about their pole. Where that needs a start point, a pole or a radius that is not known, it is refused.
+//
+// Afterwards all Axis words are kAbsolute and all Center words kStep (from the start point, radius); Distance,
+// Diameter, OpeningAngle, Via, Pole and polar words are gone, and lengths are mm.
 #pragma once
 
 #include <cstdint>
+#include <string_view>
+#include <vector>
 
 #include "base/diag/sink.h"
+#include "ir/analysis/value_range.h"
 #include "ir/machine.h"
 #include "ir/module.h"
 
 namespace ncport::ir::transform {
 
 struct AbsoluteDimensionsConfig {
-  std::uint8_t diameter_axis = 0xFF;  // of the target: its words are diameters; 0xFF = none
-  ModalState sub_entry;               // state of subprograms that nothing in the module calls ([entry])
+  std::uint8_t diameter_axis = 0xFF;              // of the target: its words are diameters; 0xFF = none
+  ModalState sub_entry;                           // state of subprograms that nothing in the module calls ([entry])
+  std::vector<analysis::DeclaredRange> declared;  // what is promised of parameters
+  std::string_view target;                        // its name, for findings
 };
 
 /// All programs of the module. An increment from a position that is not known, and a word under a mode that is not one

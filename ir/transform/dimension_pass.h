@@ -1,0 +1,205 @@
+// The inside of absolute_dimensions.h: what its parts share. Flow of positions and axis words are in
+// absolute_dimensions.cc, arcs and polar words in absolute_plane.cc.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "ir/analysis/call_graph.h"
+#include "ir/analysis/cfg.h"
+#include "ir/analysis/interval.h"
+#include "ir/analysis/modal_state.h"
+#include "ir/builder.h"
+#include "ir/transform/absolute_dimensions.h"
+#include "ir/transform/linear_form.h"
+#include "ir/transform/plane_geometry.h"
+#include "ir/transform/program_editor.h"
+
+namespace ncport::ir::transform {
+
+/// What outlives a block: the positions of the axes (0 to kMaxAxes - 1), and of polar words the pole, along the first
+/// and the second axis of the plane, the angle and the radius.
+using Slot = std::uint8_t;
+inline constexpr Slot kPoleFirst = kMaxAxes;
+inline constexpr Slot kPoleSecond = kMaxAxes + 1;
+inline constexpr Slot kPolarAngle = kMaxAxes + 2;
+inline constexpr Slot kPolarRadius = kMaxAxes + 3;
+inline constexpr Slot kSlots = kMaxAxes + 4;
+using SlotMask = std::uint32_t;  // bit per slot
+constexpr SlotMask MaskOf(Slot slot) { return SlotMask{1} << slot; }
+inline constexpr SlotMask kAllSlots = MaskOf(kSlots) - 1;
+inline constexpr SlotMask kPolarSlots =
+    MaskOf(kPoleFirst) | MaskOf(kPoleSecond) | MaskOf(kPolarAngle) | MaskOf(kPolarRadius);
+
+/// The value of a slot on arrival at a block.
+struct SlotValue {
+  enum class Kind : std::uint8_t { kNoWay, kUnknown, kKnown };
+  Kind kind = Kind::kNoWay;
+  LinearForm form;  // axes in the target's terms: diameter or radius, mm; the pole as radius, mm
+  [[nodiscard]] bool Known() const { return kind == Kind::kKnown; }
+};
+using Slots = std::array<SlotValue, kSlots>;
+
+/// What a block does to one slot.
+enum class Step : std::uint8_t {
+  kNone,
+  kAbsolute,
+  kIncremental,
+  kComputed,  // from the words and other slots: Pass::Computed
+  kLost
+};
+
+/// Words of a block that mean a point or an arc of the plane.
+struct PlaneWords {
+  enum class Kind : std::uint8_t {
+    kNone,
+    kOpeningToEnd,   // opening angle and end point
+    kOpeningCenter,  // opening angle and centre
+    kThrough,        // intermediate point
+    kPolar,          // end point as radius and angle
+    kPole,           // no move: the pole
+  };
+  enum class Change : std::uint8_t { kNo, kYes, kMaybe };
+  Kind kind = Kind::kNone;
+  Change plane_changes = Change::kNo;  // then the pole goes back to the zero point and the angle is forgotten
+  Plane plane = Plane::kUnknown;
+  std::uint8_t first = 0, second = 1;  // axes of the plane
+
+  [[nodiscard]] bool Moves() const { return kind != Kind::kNone && kind != Kind::kPole; }
+  [[nodiscard]] bool HasAxis(std::uint8_t axis) const { return axis == first || axis == second; }
+};
+
+/// What the programs below a call move and write.
+struct Effects {
+  SlotMask slots = 0;
+  bool writes_shared = false;  // cells or variables that its caller sees
+};
+
+class DimensionPass {
+ public:
+  DimensionPass(Module& module, const Machine& source, const AbsoluteDimensionsConfig& config, diag::Sink& sink)
+      : module_(module),
+        source_(source),
+        config_(config),
+        sink_(sink),
+        make_(module),
+        graphs_(module),
+        calls_(module),
+        flow_(module, source, graphs_, calls_, {source.start, config.sub_entry}) {}
+
+  bool Run();
+
+ private:
+  void FindEffects();
+  bool RunProgram(ProgramId program);
+
+  // Analysis of one program.
+  [[nodiscard]] Step StepOf(BlockId block, Slot slot) const;
+  [[nodiscard]] Step AxisStep(BlockId block, std::uint8_t axis) const;
+  [[nodiscard]] bool UsesSlot(BlockId block, Slot slot) const;
+  void FindLive();
+  void FindCarryLive();
+  void Flow();
+  /// Slots behind a block that is reached with `slots`.
+  void Through(BlockId block, Slots& slots, bool emit);
+  /// The block moves and a modal call may be active: its program runs behind the block.
+  [[nodiscard]] bool TriggersModal(ProgramId program, BlockId block) const;
+  bool Join(BlockId block, Slots& at, const Slots& from);
+  [[nodiscard]] Slots EntrySlots() const;
+  /// Slots that need to be followed: without polar words only the axes.
+  [[nodiscard]] Slot SlotsUsed() const { return polar_ ? kSlots : kMaxAxes; }
+
+  // Values.
+  struct Scale {
+    double factor = 1;  // source number -> target number
+    bool incremental = false;
+    bool known = true;
+  };
+  Scale ScaleOf(const Word& word, std::uint8_t axis, const ModalState& state, BlockId block, bool report);
+  static double UnitFactor(const ModalState& state);
+  ExprId Scaled(ExprId value, double factor);
+  [[nodiscard]] LinearForm ScaledForm(ExprId value, double factor) const {
+    return Sum(module_, {}, FormOf(module_, value), factor);
+  }
+  ExprId Held(Slot slot);
+  void Save(BlockId block, Slot slot, SlotValue& value, bool before, bool emit);
+  void RewriteWords(BlockId block, const Slots& in);
+  std::optional<LinearForm> CenterForm(BlockId block, const Word& word, const Slots& in) const;
+  void RewriteCenter(BlockId block, Word& word, const Slots& in);
+  void RewriteMachineWords(BlockId block);
+  void DropModeWords();
+  void Unknown(BlockId block, const Word& word, std::uint8_t axis);
+  [[nodiscard]] bool ReadsPlace(const LinearForm& form, ExprId place) const;
+  [[nodiscard]] bool ReadsShared(const LinearForm& form) const;
+  [[nodiscard]] const Word* WordFor(BlockId block, std::uint8_t axis) const;
+  [[nodiscard]] const Word* WordOf(BlockId block, WordOp op) const;
+  [[nodiscard]] bool Conditional(const Block& block) const;
+  [[nodiscard]] std::uint32_t IndexOf(BlockId block) const { return block.value - blocks_.begin; }
+
+  // Arcs and polar words.
+  void FindPlaneWords();
+  [[nodiscard]] PlaneWords PlaneWordsOf(BlockId block) const;
+  [[nodiscard]] const PlaneWords& PlaneAt(BlockId block) const { return plane_words_[IndexOf(block)]; }
+  [[nodiscard]] Step PolarStep(BlockId block, Slot slot) const;
+  [[nodiscard]] bool UsesForPlane(BlockId block, Slot slot) const;
+  [[nodiscard]] bool PolarAngleAdds(BlockId block) const;
+  [[nodiscard]] bool PoleIsCenter(BlockId block) const;
+  /// New value of a slot with Step::kComputed; none: something that it follows from is not known.
+  std::optional<LinearForm> Computed(BlockId block, Slot slot, const Slots& in);
+  /// End point of a block with polar words or with centre and opening angle; as radii, like all points here.
+  std::optional<PlanePoint> EndOfPlane(BlockId block, const Slots& in);
+  std::optional<PlanePoint> StartOfPlane(BlockId block, const Slots& in) const;
+  std::optional<PlanePoint> CenterOfPlane(BlockId block, const Slots& in) const;
+  std::optional<PlanePoint> PolarEnd(BlockId block, const Slots& in);
+  std::optional<PlanePoint> PoleOf(BlockId block, const Slots& in) const;
+  std::optional<PlanePoint> NewPole(BlockId block, const Slots& in);
+  [[nodiscard]] LinearForm AsRadius(std::uint8_t axis, const LinearForm& target) const;
+  [[nodiscard]] LinearForm AsTarget(std::uint8_t axis, const LinearForm& radius) const;
+  /// Where the words of the block lead along an axis, or where it stands.
+  std::optional<LinearForm> EndOfAxis(BlockId block, std::uint8_t axis, const Slots& in);
+  /// The words of the block with centres and axis words for what only the source has; false: refused.
+  bool LowerPlaneWords(BlockId block, const Slots& in, std::vector<Word>& words);
+  bool LowerOpening(BlockId block, const Slots& in, std::vector<Word>& words);
+  bool LowerThrough(BlockId block, const Slots& in, std::vector<Word>& words);
+  bool LowerPolar(BlockId block, const Slots& in, std::vector<Word>& words);
+  void RemovePole(BlockId block, const Slots& in);
+  void AddAxes(const PlaneWords& plane, const PlanePoint& point, std::vector<Word>& words);
+  void AddCenters(const PlaneWords& plane, const PlanePoint& center, std::vector<Word>& words);
+  bool Refuse(BlockId block, const Word& word, std::string_view what, std::string_view help = "");
+  /// Every value that the words of the block can have lies from `low` to `high`.
+  [[nodiscard]] bool Within(BlockId block, const Word& word, double low, double high) const;
+  void FindRanges();
+
+  Module& module_;
+  const Machine& source_;
+  const AbsoluteDimensionsConfig& config_;
+  diag::Sink& sink_;
+  ExprBuilder make_;
+  analysis::FlowGraphs graphs_;
+  analysis::CallGraph calls_;
+  analysis::ModalFlow flow_;
+  std::vector<Effects> effects_;                        // per program
+  Effects modal_;                                       // of the programs that modal calls run
+  std::map<std::uint32_t, analysis::Interval> ranges_;  // values of words that need it; by word
+  bool polar_ = false;                                  // some program has polar words
+  bool poles_ = false;                                  // some program sets a pole or changes the plane
+
+  // Of the program at hand.
+  ProgramId program_;
+  IdRange<BlockId> blocks_;
+  std::vector<PlaneWords> plane_words_;  // per block
+  std::vector<SlotMask> live_;           // per block: slots whose value on arrival is used
+  std::vector<SlotMask> carry_live_;     // slots whose held value is used behind the block
+  std::vector<SlotMask> carried_;        // slots that arrive in their local
+  std::vector<Slots> in_;
+  std::array<VariableId, kSlots> held_{};
+  std::optional<ProgramEditor> editor_;
+  std::vector<std::pair<BlockId, std::vector<Word>>> rewritten_;  // changed when all blocks were looked at
+  bool ok_ = true;
+};
+
+}  // namespace ncport::ir::transform

@@ -1,0 +1,159 @@
+#include "ir/transform/absolute_dimensions.h"
+
+#include <regex>
+
+#include "tests/unit/ir/transform/dump_pass.h"
+
+namespace ncport::ir::transform {
+namespace {
+
+/// In texts here R[1] is a cell; types, and that a number was computed, are left out.
+std::string Absolute(const std::string& blocks, diag::Sink& sink) {
+  const std::string cells = std::regex_replace(blocks, std::regex("R\\["), "cell:real R[");
+  const std::string text =
+      test::After("ncport-ir 1\nfile m\nspace R 0..99 real kept all zero\nprogram M main @m:0\n" + cells, sink,
+                  [](Module& module, diag::Sink& findings) {
+                    Machine machine;
+                    machine.start.motion = Motion::kLinear;
+                    machine.start.plane = Plane::kXY;
+                    machine.start.distance = Distance::kAbsolute;
+                    machine.start.units = Units::kMm;
+                    machine.start.diameter = Diameter::kRadius;
+                    return AbsoluteDimensions(module, machine, {}, findings);
+                  });
+  const std::string numbers = std::regex_replace(text, std::regex("literal\\(([-0-9.]+), computed\\)"), "$1");
+  return std::regex_replace(numbers, std::regex("cell:real |:(real|int)"), "");
+}
+
+TEST_CASE("an increment is the position that it leads to; in a loop that is held in a local") {
+  diag::Sink sink;
+  CHECK(Absolute("  @m:1 : axis X = 1\n"
+                 "  @m:2 : axis X incremental = 2\n"
+                 "  @m:3 label L : axis X incremental = 1\n"
+                 "  @m:4 : jump backward label L = lt!tolerance:bool(R[1], 4)\n",
+                 sink) ==
+        "program M main\n"
+        "axis X absolute = 1\n"
+        "axis X absolute = 3\n"
+        "assign variable POS_X = 3\n"
+        "label L axis X absolute = add(variable POS_X, 1)\n"
+        "assign variable POS_X = add(variable POS_X, 1)\n"
+        "jump backward label L = lt!tolerance:bool(R[1], 4)\n");
+  CHECK_FALSE(sink.HasErrors());
+}
+
+TEST_CASE("opening angles become centres and end points (sinumerik-8.3)") {
+  diag::Sink sink;
+  CHECK(Absolute("  @m:1 : axis X = 0; axis Y = 0\n"
+                 "  @m:2 : motion arc-ccw; axis X = 20; opening-angle = 180; feed = 100\n"
+                 "  @m:3 : motion arc-cw; center I step = -10; opening-angle = 90\n"
+                 "  @m:4 : axis X incremental = 1; motion linear\n",
+                 sink) ==
+        "program M main\n"
+        "axis X absolute = 0; axis Y absolute = 0\n"
+        "motion arc-ccw; axis X absolute = 20; center I step = 10; center J step = 0; feed = 100\n"
+        "motion arc-cw; axis X absolute = 10; axis Y absolute = -10; center I step = -10\n"
+        "axis X absolute = 11; motion linear\n");
+  CHECK_FALSE(sink.HasErrors());
+}
+
+TEST_CASE("an opening angle without a known start, or computed, is refused") {
+  for (const std::string_view blocks : {"  @m:1 : motion arc-ccw; axis X = 20; axis Y = 0; opening-angle = 180\n",
+                                        "  @m:1 : axis X = 0; axis Y = 0\n"
+                                        "  @m:2 : motion arc-ccw; axis X = 20; opening-angle = R[1]\n",
+                                        "  @m:1 : axis X = 0; axis Y = 0\n"
+                                        "  @m:2 : motion arc-ccw; axis X = 20; opening-angle = 360\n",
+                                        "  @m:1 : axis X = 0; axis Y = 0\n"
+                                        "  @m:2 : motion arc-ccw; opening-angle = 90\n"}) {
+    CAPTURE(blocks);
+    diag::Sink sink;
+    Absolute(std::string(blocks), sink);
+    CHECK(sink.HasErrors());
+  }
+}
+
+TEST_CASE("an intermediate point becomes centre and sense (sinumerik-8.3)") {
+  diag::Sink sink;
+  CHECK(Absolute("  @m:1 : axis X = R[1]; axis Y = 0; axis Z = 0\n"
+                 "  @m:2 : motion arc-via; axis X = add(R[1], 20); via I = add(R[1], 10); via J = -10\n"
+                 "  @m:3 : axis X incremental = -20; via I incremental = -10; via J incremental = -10\n",
+                 sink) ==
+        "program M main\n"
+        "axis X absolute = R[1]; axis Y absolute = 0; axis Z absolute = 0\n"
+        "motion arc-ccw; axis X absolute = add(R[1], 20); center I step = 10; center J step = 0\n"
+        "motion arc-cw; axis X absolute = R[1]; center I step = -10; center J step = 0\n");
+  CHECK_FALSE(sink.HasErrors());
+}
+
+TEST_CASE("an intermediate point on a line, or out of the plane, is refused") {
+  for (const std::string_view via : {"via I = 10; via J = 0", "via I = 10; via K = 5"}) {
+    CAPTURE(via);
+    diag::Sink sink;
+    Absolute(
+        "  @m:1 : axis X = 0; axis Y = 0; axis Z = 0\n  @m:2 : motion arc-via; axis X = 20; " + std::string(via) + "\n",
+        sink);
+    CHECK(sink.HasErrors());
+  }
+}
+
+TEST_CASE("polar words turn about their pole and stay until changed (sinumerik-8.6)") {
+  diag::Sink sink;
+  CHECK(Absolute("  @m:1 : axis X = 1; axis Y = 2; axis Z = 3\n"
+                 "  @m:2 : pole workpiece-zero; axis X = 20; axis Y = 10\n"
+                 "  @m:3 : polar-radius = 50; polar-angle = 90; feed = 100\n"
+                 "  @m:4 : polar-angle incremental = 90\n"
+                 "  @m:5 : motion arc-ccw; polar-angle = 270\n"
+                 "  @m:6 : pole last-position; axis Y = 5\n"
+                 "  @m:7 : motion linear; polar-angle = 0; axis Z = 1\n"
+                 "  @m:8 : plane zx\n"
+                 "  @m:9 : polar-angle = 0; polar-radius = R[1]\n",
+                 sink) ==
+        "program M main\n"
+        "axis X absolute = 1; axis Y absolute = 2; axis Z absolute = 3\n"
+        "axis X absolute = 20; axis Y absolute = 60; feed = 100\n"
+        "axis X absolute = -30; axis Y absolute = 10\n"
+        "motion arc-ccw; axis X absolute = 20; axis Y absolute = -40; center I step = 50; center J step = 0\n"
+        "motion linear; axis X absolute = 70; axis Y absolute = -35; axis Z absolute = 1\n"
+        "plane zx\n"
+        "polar-angle = 0; polar-radius = R[1]\n");
+  CHECK(sink.HasErrors());  // R1 may be negative
+}
+
+TEST_CASE("a polar angle that grows in a loop is held in a local, a variable radius must not be negative") {
+  diag::Sink sink;
+  CHECK(Absolute("  @m:1 : axis X = 0; axis Y = 0\n"
+                 "  @m:2 : assign R[1] = 5\n"
+                 "  @m:3 : polar-radius = R[1]; polar-angle = 0\n"
+                 "  @m:4 label L : polar-angle incremental = 15\n"
+                 "  @m:5 : jump backward label L = lt!tolerance:bool(R[2], 4)\n",
+                 sink) ==
+        "program M main\n"
+        "axis X absolute = 0; axis Y absolute = 0\n"
+        "assign R[1] = 5\n"
+        "axis X absolute = R[1]; axis Y absolute = 0\n"
+        "assign variable POLAR_ANGLE = 0\n"
+        "label L axis X absolute = mul(R[1], call cos(add(variable POLAR_ANGLE, 15))); "
+        "axis Y absolute = mul(R[1], call sin(add(variable POLAR_ANGLE, 15)))\n"
+        "assign variable POLAR_ANGLE = add(variable POLAR_ANGLE, 15)\n"
+        "jump backward label L = lt!tolerance:bool(R[2], 4)\n");
+  CHECK_FALSE(sink.HasErrors());
+}
+
+TEST_CASE("polar words without a known pole, angle or radius are refused") {
+  for (const std::string_view blocks :
+       {"  @m:1 : polar-radius = 5\n", "  @m:1 : polar-angle = 5\n",
+        "  @m:1 : polar-radius = 5; polar-angle incremental = 5\n",
+        "  @m:1 : polar-radius = 5; polar-angle = 5; axis X = 5\n", "  @m:1 : polar-radius = -5; polar-angle = 5\n",
+        "  @m:1 : pole last-position; axis X = 5\n",
+        "  @m:1 : polar-radius = 5; polar-angle = 5\n"
+        "  @m:2 : pole workpiece-zero; axis X = 5\n"
+        "  @m:3 : polar-radius = 5\n"}) {
+    CAPTURE(blocks);
+    diag::Sink sink;
+    Absolute(std::string(blocks), sink);
+    CHECK(sink.HasErrors());
+  }
+}
+
+}  // namespace
+}  // namespace ncport::ir::transform

@@ -1,18 +1,22 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "app/baseline.h"
 #include "app/ncport.h"
 #include "app/pipeline.h"
 #include "app/value_rule_options.h"
+#include "backends/translate.h"
 #include "check/rules.h"
 #include "check/structure_rules.h"
 #include "check/value_rules.h"
+#include "dialects/machine.h"
 
 namespace ncport {
 namespace {
@@ -153,12 +157,30 @@ void MentionUntranslated(const SourceFiles& files, diag::Sink& findings) {
   }
 }
 
+/// What `translate` to `target` would refuse.
+void CheckPortability(Context& context, const app::ProgramSet& set, const dialects::Profile& target,
+                      const CheckOptions& options) {
+  const ir::Machine machine = dialects::MachineFor(set.profile);
+  const dialects::Config config = options.config != nullptr ? options.config->For(options.target) : dialects::Config{};
+  backends::Translation translation;
+  (void)backends::Raise({&set.module, &set.profile, &machine, &target, &config}, translation, context.findings);
+}
+
 }  // namespace
 
 Status Check(Context& context, std::vector<Input> inputs, const CheckOptions& options) {
   Status known = KnownCodes(options.select, "select", context.findings);
   known &= KnownCodes(options.ignore, "ignore", context.findings);
   NCPORT_TRY(known);
+  std::optional<dialects::Profile> target;
+  if (!options.target.empty()) {
+    NCPORT_TRY_ASSIGN(target, dialects::LoadProfile(options.target, context.files, context.findings));
+  }
+  app::Baseline baseline;
+  if (options.baseline != nullptr) {
+    NCPORT_TRY_ASSIGN(baseline,
+                      app::Baseline::Parse(options.baseline->bytes, options.baseline->name, context.findings));
+  }
   app::ProgramSet set;
   const Status read = app::ReadSet(context, std::move(inputs), options, app::ProfileNeed::kGuess, set);
   if (set.inputs.empty()) return read & Failure{};
@@ -168,6 +190,8 @@ Status Check(Context& context, std::vector<Input> inputs, const CheckOptions& op
   check::CheckPrograms(subject, context.findings);
 
   CheckFlow(context, set, options, subject);
+  // What is wrong in its own language is refused for that already.
+  if (target && !context.findings.HasErrors()) CheckPortability(context, set, *target, options);
 
   Ignores ignores = CollectIgnores(context.files, set.module);
   context.findings.Remove([&](const diag::Diagnostic& finding) {
@@ -192,6 +216,12 @@ Status Check(Context& context, std::vector<Input> inputs, const CheckOptions& op
     const bool selected = options.select.empty() || MatchesAny(number, options.select);
     return !selected || MatchesAny(number, options.ignore);
   });
+  baseline.Silence(context.findings, context.files);
+  if (options.new_baseline != nullptr) {
+    const app::Baseline all = app::Baseline::Of(context.findings, context.files);
+    *options.new_baseline = all.Render();
+    all.Silence(context.findings, context.files);
+  }
   return context.findings.HasErrors() ? Status(Failure{}) : Status{};
 }
 

@@ -1,4 +1,4 @@
-// How far each tool of a run goes, and how fast (design section 6). Listens to the events on their way.
+// How far each tool of a run goes, and how fast. Listens to the events on their way.
 #pragma once
 
 #include <cstdint>

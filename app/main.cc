@@ -253,9 +253,29 @@ int RunFlatten(const FlattenArguments& arguments) {
 }
 
 struct CheckArguments : Common {
-  std::string format = "text", fail_on;
+  std::string format = "text", fail_on, target, baseline, new_baseline;
   std::vector<std::string> select, ignore;
+  bool fix = false;
 };
+
+/// Writes the repaired texts over their files. False: a message was printed.
+bool WriteFixed(Context& context) {
+  for (const FixedFile& fixed : Fix(context)) {
+    std::string error;
+    // Bytes that were decoded or left out could not be written back as they were.
+    if (fixed.name == "(stdin)" || ReadBytes(fixed.name, error) != fixed.before) {
+      Say(fmt::format("{} is not changed: it is no file of plain text", fixed.name));
+      return false;
+    }
+    OutputFile file(fixed.name);
+    if (!file.Open().Ok() || !file.Text().Write(fixed.after).Ok() || !file.Commit().Ok()) {
+      Say(file.Error());
+      return false;
+    }
+    Say(fmt::format("{}: {} {} repaired", fixed.name, fixed.fixes, fixed.fixes == 1 ? "finding" : "findings"));
+  }
+  return true;
+}
 
 int RunCheck(const CheckArguments& arguments) {
   Session session(arguments);
@@ -264,6 +284,20 @@ int RunCheck(const CheckArguments& arguments) {
   session.Fill(options);
   options.select = arguments.select.empty() ? session.Config().select : arguments.select;
   options.ignore = arguments.ignore.empty() ? session.Config().ignore : arguments.ignore;
+  options.target = arguments.target;
+  Input baseline{arguments.baseline, {}};
+  if (!arguments.baseline.empty()) {
+    std::string error;
+    std::optional<std::string> bytes = ReadBytes(arguments.baseline, error);
+    if (!bytes) {
+      Say(error);
+      return kUsage;
+    }
+    baseline.bytes = *std::move(bytes);
+    options.baseline = &baseline;
+  }
+  std::string new_baseline;
+  if (!arguments.new_baseline.empty()) options.new_baseline = &new_baseline;
   (void)Check(session.context, session.TakeInputs(), options);
 
   // Wrong usage is no finding of the programs.
@@ -272,6 +306,14 @@ int RunCheck(const CheckArguments& arguments) {
     if (IsUsage(finding.code)) return session.End(Failure{});
   }
   if (!session.FolderError().empty()) return session.End(Failure{});
+  if (arguments.fix && !WriteFixed(context)) return kUsage;
+  if (!arguments.new_baseline.empty()) {
+    OutputFile file(arguments.new_baseline);
+    if (!file.Open().Ok() || !file.Text().Write(new_baseline).Ok() || !file.Commit().Ok()) {
+      Say(file.Error());
+      return kUsage;
+    }
+  }
 
   dialects::FailOn fail_on = session.Config().fail_on.value_or(dialects::FailOn::kError);
   if (arguments.fail_on == "error") fail_on = dialects::FailOn::kError;
@@ -512,6 +554,11 @@ int Main(int argc, char** argv) {
       ->delimiter(',')
       ->allow_extra_args(false);
   command->add_option("--ignore", check.ignore, "not these codes")->delimiter(',')->allow_extra_args(false);
+  command->add_option("--for", check.target, "find also what cannot be written for this profile")->type_name("PROFILE");
+  command->add_flag("--fix", check.fix, "do the repairs that findings offer, in the files");
+  command->add_option("--baseline", check.baseline, "leave out the findings that this file lists")->type_name("FILE");
+  command->add_option("--write-baseline", check.new_baseline, "list all findings in this file and leave them out")
+      ->type_name("FILE");
   command->callback([&] { code = RunCheck(check); });
 
   TraceArguments trace;

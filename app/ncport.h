@@ -104,6 +104,9 @@ struct DiffOptions : RunSettings {
 
 struct CheckOptions : ReadSettings {
   std::vector<std::string> select, ignore;  // codes or their first characters (`NC5`); empty select: all
+  std::string target;                       // profile: find also what `translate --to` would refuse; empty: none
+  const Input* baseline = nullptr;          // text of app/baseline.h: findings to leave out
+  std::string* new_baseline = nullptr;      // takes the baseline of all findings, which are then left out
 };
 
 enum class DumpStage : std::uint8_t { kTokens, kIr, kCfg };
@@ -126,6 +129,16 @@ Status Diff(Context& context, const Input& a, const Input& b, const DiffOptions&
 /// Reads and checks all programs. Fails when an error was found. Findings that a comment `ncport: ignore NCxxxx` or the
 /// options silence are not in the context.
 Status Check(Context& context, std::vector<Input> inputs, const CheckOptions& options);
+
+/// A text in which repairs of findings are done.
+struct FixedFile {
+  std::string name;
+  std::string before, after;
+  std::size_t fixes = 0;
+};
+/// The texts, as UTF-8, that Check read into `context` and for which findings offer repairs, repaired; those findings
+/// are taken out. Of repairs that overlap the first is done and the others stay.
+std::vector<FixedFile> Fix(Context& context);
 
 /// Shows a stage of the compiler as text.
 Status Dump(Context& context, std::vector<Input> inputs, const DumpOptions& options, OutputSink& output);

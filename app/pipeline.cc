@@ -11,6 +11,7 @@
 #include "base/encoding.h"
 #include "dialects/registry.h"
 #include "frontend/reader.h"
+#include "ir/verify.h"
 
 namespace ncport::app {
 namespace {
@@ -119,7 +120,12 @@ Status ReadSet(Context& context, std::vector<Input> inputs, const ReadSettings& 
   }
   ok &= ReadCalled(context, settings, named, set);
   frontend::ResolveNames(context.files, set.module, set.profile, context.findings);
-  return context.findings.HasErrors() ? ok & Failure{} : ok;
+  if (context.findings.HasErrors()) return ok & Failure{};
+  // Larger ones are literal blocks out of a CAM system, which take few of the ways through the frontend.
+  constexpr std::size_t kMostVerifiedWords = 200'000;
+  if (set.module.words.Size() <= kMostVerifiedWords)
+    ir::Verify(set.module, "after reading", {.names_resolved = true, .structure_built = true});
+  return ok;
 }
 
 Result<exec::RunOptions> RunOptionsFor(Context& context, const ProgramSet& set, const RunSettings& settings) {

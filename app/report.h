@@ -1,4 +1,4 @@
-// The sheet that goes to the machine with a program that ncport wrote (design section 6): what is required, what stands
+// The sheet that goes to the machine with a program that ncport wrote: what is required, what stands
 // for what, how far each tool goes, what was lost and what was assumed. Plain data; two renderers, one per file ending.
 #pragma once
 

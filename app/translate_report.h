@@ -1,4 +1,4 @@
-// The sheet that goes to the machine with a translation (design section 6): `translate --report`.
+// The sheet that goes to the machine with a translation: `translate --report`.
 #pragma once
 
 #include <vector>

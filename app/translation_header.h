@@ -1,5 +1,5 @@
 // What the head of a translated program tells the one who runs it: where it comes from, what its letters, cells and
-// tools are, what was compared and what was lost (design section 6).
+// tools are, what was compared and what was lost.
 #pragma once
 
 #include <string>

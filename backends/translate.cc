@@ -9,10 +9,13 @@
 #include "backends/sinumerik/write.h"
 #include "base/result.h"
 #include "ir/builder.h"
+#include "ir/verify.h"
 
 namespace ncport::backends {
 
-bool Raise(const TranslateInput& input, Translation& translation, diag::Sink& sink) {
+namespace {
+
+bool RaiseFor(const TranslateInput& input, Translation& translation, diag::Sink& sink) {
   switch (input.to->language) {
     case dialects::Language::kFanuc:
       return fanuc::Raise({input.source, input.source_machine, input.to, input.config, input.from}, translation, sink);
@@ -26,6 +29,15 @@ bool Raise(const TranslateInput& input, Translation& translation, diag::Sink& si
   sink.Report(diag::Code::kNotExpressible, SourceRange{}, "a program with loops, calls and variables", input.to->name)
       .help = "ncport flatten writes programs of literal blocks";
   return false;
+}
+
+}  // namespace
+
+bool Raise(const TranslateInput& input, Translation& translation, diag::Sink& sink) {
+  const bool done = RaiseFor(input, translation, sink);
+  // A pass that refused may have left its work half done.
+  if (done) ir::Verify(translation.module, "after raising", {.names_resolved = true, .structure_built = true});
+  return done;
 }
 
 dialects::Profile ForReading(const dialects::Profile& to) {

@@ -1,4 +1,4 @@
-// Canned cycles: holes, and single cuts of lathes (fanuc-8.7, 8.8). Cycles over a contour: contour_cycles.cc.
+// Canned cycles: holes, and single cuts of lathes (fanuc-8.7, 8.8).
 #include <algorithm>
 #include <cmath>
 #include <cstring>

@@ -64,7 +64,9 @@ class Verifier {
     return id.value < m_.strings.Size() || Fail("{} is string {} of {}", what, id.value, m_.strings.Size());
   }
   bool File(FileId id) {
-    return !id.Valid() || id.value < m_.file_names.size() || Fail("file {} has no name", id.value);
+    if (!id.Valid()) return true;
+    return (id.value < m_.file_names.size() && m_.file_names[id.value].Valid()) ||
+           Fail("file {} has no name", id.value);
   }
   bool Operand(ExprId id, std::string_view what, bool may_be_missing = true) {
     if (!id.Valid()) return may_be_missing || Fail("{} is missing", what);
@@ -106,8 +108,9 @@ class Verifier {
   // --- tables
 
   bool Tables() {
+    // Ids without a name are of files that hold no program: profiles, settings.
     for (const StringId name : m_.file_names) {
-      if (!String(name, "file name", false)) return false;
+      if (!String(name, "file name")) return false;
     }
     if (!Check(m_.axis_names.size() <= kMaxAxes - kFirstNamedAxis, "too many axis names")) return false;
     for (const StringId name : m_.axis_names) {

@@ -1,5 +1,5 @@
-// Runs a program and its translation over many parameter sets and compares what the machine would do (design section
-// 5). "Not compared" is a result: too few runs that count, or a branch of the source that no run took.
+// Runs a program and its translation over many parameter sets and compares what the machine would do.
+// "Not compared" is a result: too few runs that count, or a branch of the source that no run took.
 #pragma once
 
 #include <cstdint>

@@ -8,7 +8,7 @@ namespace ncport::backends::fanuc {
 
 /// What the profile must answer before blocks can be framed; each open answer is a finding with the line to add.
 bool NeedFrame(const RaiseInput& input, diag::Sink& sink);
-/// Head and end of main programs: every modal group that a program can rely on is written (design 4.3).
+/// Head and end of main programs: every modal group that a program can rely on is written.
 void FrameMainPrograms(const RaiseInput& input, Translation& out);
 /// Machines whose tools change at a position: the way there in front of each tool call but the first; behind each what
 /// the change undoes.

@@ -27,7 +27,7 @@ bool MapAuxiliaries(const RaiseInput& input, Translation& out, diag::Sink& sink)
 /// Words are printed by the table of the target from here on, not as the source wrote them.
 void DropSpellings(Translation& out);
 
-/// A main program writes every modal group it relies on: all that its control promises at the start (design 4.3), or,
+/// A main program writes every modal group it relies on: all that its control promises at the start, or,
 /// `only_relied_on`, those that decide what a word means before the program sets them.
 void WriteStartModes(const RaiseInput& input, Translation& out, bool only_relied_on);
 

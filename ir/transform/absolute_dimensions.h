@@ -1,5 +1,5 @@
 // Writes every dimension word as an absolute one in the terms of the target, so that no later pass or printer depends
-// on the distance, diameter or unit mode in force (design 4.4): an increment becomes the position it leads to.
+// on the distance, diameter or unit mode in force: an increment becomes the position it leads to.
 // Positions are kept as sums; where ways with different sums meet, or a variable of a sum changes, the position is held
 // in a local (POS_X). A step away and back costs nothing, and nothing is rounded on the way: no drift.
 //

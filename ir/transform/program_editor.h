@@ -22,7 +22,7 @@ class ProgramEditor {
   /// Blocks inserted at one place keep the order of the calls.
   void InsertBefore(BlockId place, const Block& block) { edits_.push_back({place, Where::kBefore, block}); }
   void InsertAfter(BlockId place, const Block& block) { edits_.push_back({place, Where::kAfter, block}); }
-  /// Takes the block out. Its comments go to the next block that stays (style-examples idea 8), a label or number that
+  /// Takes the block out. Its comments go to the next block that stays, a label or number that
   /// it carries too, when that block has none; otherwise the block stays as an empty one.
   void Remove(BlockId place);
   [[nodiscard]] bool Changed() const { return !edits_.empty(); }

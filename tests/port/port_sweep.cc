@@ -133,7 +133,7 @@ std::size_t Blocks(const std::string& text, bool target) {
     const char c = line[first];
     if (c == ';' || c == '(' || c == '%') continue;
     if (target && c == 'O') continue;
-    // Guards of missing letters are not counted (contracts, issue 3).
+    // Guards of missing letters are not counted.
     if (target && (line.find("EQ #0]GOTO9") != std::string::npos || line.find("*MISSING") != std::string::npos))
       continue;
     ++count;

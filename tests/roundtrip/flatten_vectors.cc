@@ -2,7 +2,7 @@
 // flattened, and the flat program read back as iso must do what the vector does. A vector that flatten refuses, that
 // ends in an alarm, or that turns more than once around (flat blocks have one turn each) is not given; at least 80 %
 // must be. Fanuc controls start in G54: a program that selects no work offset must get that word before its first
-// motion (contracts section 6; design 4.3).
+// motion (contracts section 6).
 #include <cstdio>
 #include <filesystem>
 #include <string>

@@ -36,6 +36,20 @@ TEST_CASE("Trace prints what the program does") {
   CHECK(call.context.findings.Empty());
 }
 
+TEST_CASE("Fix repairs the texts and takes the findings out") {
+  Call call;
+  CheckOptions options;
+  options.from = "sinumerik-840d-mill";
+  (void)Check(call.context, {{"a.mpf", "IF R1 < = 5 GOTOF NEXT ; < =\r\nG999\r\nNEXT: M30"}}, options);
+  CHECK(call.Codes() == "NC1020 NC1015");
+  const std::vector<FixedFile> fixed = Fix(call.context);
+  REQUIRE(fixed.size() == 1);
+  CHECK(fixed[0].name == "a.mpf");
+  CHECK(fixed[0].fixes == 1);
+  CHECK(fixed[0].after == "IF R1 <= 5 GOTOF NEXT ; < =\r\nG999\r\nNEXT: M30");
+  CHECK(call.Codes() == "NC1015");
+}
+
 TEST_CASE("called programs come from the provider, each asked for once") {
   Call call;
   std::string asked;

@@ -169,6 +169,7 @@ TEST_CASE("ir verify: variables, origins, tables") {
       Has(After([](Module& m) { m.variables[First<VariableId>()].dimensions[1] = 4; }), "dimension that is not there"));
   CHECK(Has(After([](Module& m) { m.variables[First<VariableId>()].scope = Scope::kLocal; }), "a local of no program"));
   CHECK(Has(After([](Module& m) { m.variables[First<VariableId>()].file.value = 9; }), "file 9 has no name"));
+  CHECK(Has(After([](Module& m) { m.file_names[0] = {}; }), "file 0 has no name"));
   CHECK(Has(After([](Module& m) { m.origins[First<OriginId>()].via = First<OriginId>(); }), "leads to one that"));
   CHECK(Has(After([](Module& m) { m.spaces[First<SpaceId>()].last = 0, m.spaces[First<SpaceId>()].first = 1; }),
             "ends before it starts"));

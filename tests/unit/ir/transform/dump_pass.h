@@ -50,7 +50,8 @@ inline std::string After(std::string_view before, diag::Sink& sink,
                          const std::function<bool(Module&, diag::Sink&)>& pass) {
   Result<Module> module = ParseDump(before, sink);
   REQUIRE(module.Ok());
-  pass(module.Value(), sink);
+  const bool done = pass(module.Value(), sink);
+  if (done) CHECK(FindViolation(module.Value()).value_or("") == "");
   return BlocksOf(module.Value());
 }
 

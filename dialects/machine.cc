@@ -58,6 +58,9 @@ ir::Machine MachineFor(const Profile& profile) {
       if (!machine.lathe) machine.start.speed_mode = ir::SpeedMode::kRpm;
       // iso-5: each flat program switches compensation off in its first block; that is no event of the work.
       machine.start.comp = ir::CutterComp::kOff;
+      // iso-6: the centre is where I, J, K put it; what a control makes of radii that differ is its own affair.
+      machine.circle_tolerance_factor = 0;
+      machine.arc_center_corrected = false;
       break;
     case Language::kLinuxCnc:  // no card yet: what ir::Machine begins with
       break;

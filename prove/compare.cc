@@ -303,6 +303,7 @@ class Comparer {
                   std::uint16_t& moving);
   [[nodiscard]] double Allowed(const Event& a, const Event& b, std::uint8_t axis) const;
   void CompareNumber(const Event& a, const Event& b, double x, double y, std::string_view what);
+  void CompareSpeed(const Event& a, const Event& b, double x, double y, std::string_view what);
 
   const CompareOptions& options_;
   const std::vector<Event>& source_events_;
@@ -327,6 +328,11 @@ void Comparer::CompareNumber(const Event& a, const Event& b, double x, double y,
   const double allowed = kRelative * std::max({1.0, std::fabs(x), std::fabs(y)}) + WordErrorOf(options_.source) +
                          WordErrorOf(options_.target);
   if (!(std::fabs(x - y) <= allowed)) Fail(&a, &b, fmt::format("{} {:.10g} became {:.10g}", what, x, y));
+}
+
+void Comparer::CompareSpeed(const Event& a, const Event& b, double x, double y, std::string_view what) {
+  const double words = options_.source.speed_error + options_.target.speed_error;
+  if (std::fabs(x - y) > words) CompareNumber(a, b, x, y, what);
 }
 
 void Comparer::NoteLonely(const Event& event, std::uint16_t axes, std::array<std::optional<double>, ir::kMaxAxes>& seen,
@@ -411,10 +417,10 @@ void Comparer::CompareSpindle(const Event& a, const Event& b, const SpindleNow& 
   if (sa.speed < 0 && sb.speed < 0) return;
   if (sa.speed < 0 || sb.speed < 0) return Fail(&a, &b, "a spindle speed on one side only");
   if (sa.surface != sb.surface) return Fail(&a, &b, "constant surface speed on one side only");
-  CompareNumber(a, b, sa.speed, sb.speed, sa.surface ? "the surface speed" : "the spindle speed");
+  CompareSpeed(a, b, sa.speed, sb.speed, sa.surface ? "the surface speed" : "the spindle speed");
   if (Failed() || !sa.surface) return;
   if ((sa.limit < 0) != (sb.limit < 0)) return Fail(&a, &b, "a spindle speed limit on one side only");
-  if (sa.limit >= 0) CompareNumber(a, b, sa.limit, sb.limit, "the spindle speed limit");
+  if (sa.limit >= 0) CompareSpeed(a, b, sa.limit, sb.limit, "the spindle speed limit");
 }
 
 void Comparer::CompareTool(const Event& a, const Event& b) {

@@ -17,6 +17,7 @@ struct Precision {
   ir::WordError word_error = ir::WordError::kNone;
   double increment = 0;               // least input increment, mm or degrees
   std::uint8_t diameter_axis = 0xFF;  // the axis on which an error counts half while diameter programming is active
+  double speed_error = 0;             // of an S word, 1/min or m/min: half of one where S takes whole numbers
 };
 
 /// One tool of both sides. A source name is the text of the tool call; numbers otherwise.

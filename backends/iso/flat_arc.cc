@@ -31,16 +31,20 @@ GridArc FitArc(const ExactArc& arc, const std::int64_t start[2], const std::int6
   const double s[2] = {static_cast<double>(start[0]) * grid.unit[0], static_cast<double>(start[1]) * grid.unit[1]};
   const double e[2] = {static_cast<double>(end[0]) * grid.unit[0], static_cast<double>(end[1]) * grid.unit[1]};
   const double scale = 1 / grid.increment;
-  const std::int64_t nearest[2] = {RoundToIncrements(arc.center[0] - s[0], scale),
-                                   RoundToIncrements(arc.center[1] - s[1], scale)};
+  std::int64_t nearest[2];
+  std::int64_t other[2];  // on the other side of the exact centre
+  for (int i = 0; i < 2; ++i) {
+    const double exact = arc.center[i] - s[i];
+    nearest[i] = RoundToIncrements(exact, scale);
+    other[i] = nearest[i] + (exact * scale > static_cast<double>(nearest[i]) ? 1 : -1);
+  }
 
-  // The nearest centre first; its eight neighbours only when the radii differ by more than an increment.
+  // The nearest centre first; the other corners of its grid square only when the radii differ by more than an
+  // increment.
   double least = INFINITY;
-  for (int step = 0; step < 9; ++step) {
-    // 0, +1, -1 for each axis; step 0 is the nearest centre itself.
-    constexpr int kOffset[3] = {0, 1, -1};
-    const std::int64_t c0 = nearest[0] + kOffset[step % 3];
-    const std::int64_t c1 = nearest[1] + kOffset[step / 3];
+  for (int step = 0; step < 4; ++step) {
+    const std::int64_t c0 = (step & 1) == 0 ? nearest[0] : other[0];
+    const std::int64_t c1 = (step & 2) == 0 ? nearest[1] : other[1];
     const double i = static_cast<double>(c0) * grid.increment;
     const double j = static_cast<double>(c1) * grid.increment;
     const double start_radius = std::hypot(i, j);

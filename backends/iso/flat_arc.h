@@ -38,7 +38,10 @@ struct GridArc {
 double SweepOf(const ExactArc& arc);
 
 /// Chooses the centre words of `arc` between the written points `start` and `end` (in units of the grid). `tolerance`:
-/// largest difference of the two radii that the control takes.
+/// largest difference of the two radii that the control takes. On each axis the written centre lies within one
+/// increment of the exact one: a centre has the error of two words (contracts section 6), start point and centre word,
+/// so that a flat program still compares with its source. Radii that need more than that stay apart, up to about 1.4
+/// increments where the end points lie on the exact arc.
 GridArc FitArc(const ExactArc& arc, const std::int64_t start[2], const std::int64_t end[2], const ArcGrid& grid,
                double tolerance);
 

@@ -27,7 +27,8 @@ struct Subject {
   std::uint64_t max_blocks = 200'000;
 };
 
-enum class Verdict : std::uint8_t { kAgrees, kRefused, kFails };
+/// kNoProgram: the program gave this direction nothing to check, for example nothing that is translated once more.
+enum class Verdict : std::uint8_t { kAgrees, kRefused, kFails, kNoProgram };
 
 /// How a check ended.
 struct Finding {

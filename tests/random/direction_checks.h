@@ -15,6 +15,9 @@ Finding CheckText(const Subject& subject, const Direction& direction);
 /// Translates the program and compares both programs, as `ncport translate --verify` does.
 Finding CheckTranslation(const Subject& subject, const Direction& direction);
 
+/// Flattens each run, reads the flat blocks back and compares what both do.
+Finding CheckFlat(const Subject& subject, const Direction& direction);
+
 /// Changes values, so that runs alarm, and looks whether check announced each alarm of arithmetic, ranges and indices.
 Finding CheckAnnounced(const Subject& subject, const Direction& direction);
 

@@ -1,7 +1,6 @@
 // Translations: raised, printed, read back and compared over both programs.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -22,37 +21,10 @@ std::string ListingOf(const std::vector<backends::OutputFile>& files) {
   return all;
 }
 
-/// The files of the main program and of those that it calls, as a command reads them.
-std::vector<TextFile> PrintCalled(const Subject& subject) {
-  const ir::Module& module = *subject.module;
-  const std::vector<TextFile> all = PrintAll(module, *subject.profile);
-  std::vector<ir::ProgramId> called{subject.main};
-  for (std::size_t i = 0; i < called.size(); ++i) {
-    for (const ir::BlockId block : module.programs[called[i]].blocks) {
-      for (const ir::WordId id : module.blocks[block].words) {
-        const ir::Word& word = module.words[id];
-        const auto call = word.Extra<ir::CallId>();
-        if ((word.op != ir::WordOp::kCall && word.op != ir::WordOp::kModalCall) || !call.Valid()) continue;
-        const ir::ProgramId callee = module.calls[call].program;
-        if (callee.Valid() && std::ranges::find(called, callee) == called.end()) called.push_back(callee);
-      }
-    }
-  }
-  std::vector<TextFile> texts;
-  for (const ir::ProgramId program : called) texts.push_back(all[module.programs[program].file.value]);
-  return texts;
-}
-
-/// First words of a difference, without the numbers in it: what kind it is.
-std::string KindOf(std::string_view difference) {
-  std::string kind(difference.substr(0, difference.find_first_of("0123456789-")));
-  return kind.substr(0, 90);
-}
-
 }  // namespace
 
 Finding CheckTranslation(const Subject& subject, const Direction& /*direction*/) {
-  const std::vector<TextFile> texts = PrintCalled(subject);
+  const std::vector<TextFile> texts = PrintCalled(*subject.module, subject.main, *subject.profile);
   Context context;
   app::ProgramSet set;
   set.profile = *subject.profile;
@@ -80,12 +52,12 @@ Finding CheckTranslation(const Subject& subject, const Direction& /*direction*/)
                                                                    translation, files, subject.config, setup, varied);
   const auto artefact = [&] { return Listing(texts) + ListingOf(files); };
   if (verification.difference) {
-    return {Verdict::kFails, "compare, " + KindOf(verification.difference->what),
+    return {Verdict::kFails, "compare, " + KindOfText(verification.difference->what),
             fmt::format("{} ({})", verification.difference->what, verification.difference_start), artefact()};
   }
   // Branches that no run took are no fault here: the next program takes others.
   if (verification.sets_run == 0 || (verification.open_branches.empty() && !verification.compared))
-    return {Verdict::kFails, "not compared, " + KindOf(verification.not_compared),
+    return {Verdict::kFails, "not compared, " + KindOfText(verification.not_compared),
             verification.not_compared + "\n" + TextOf(context.findings), artefact()};
   return {};
 }

@@ -19,6 +19,10 @@ namespace {
 constexpr std::string_view kWithTools = NCPORT_NO_FANUC ",plane=0,frame=0";
 constexpr std::string_view kWithoutTools = NCPORT_NO_FANUC ",tool=0,cutter-comp=0";
 #undef NCPORT_NO_FANUC
+// What literal blocks have no word for.
+constexpr std::string_view kNotFlat =
+    "tap=0,machine-coords=0,reference=0,spindle-position=0,aux-h=0,thread-variable=0,thread-start=0,"
+    "dwell-revolutions=0,shown-alarm=100";
 
 constexpr Direction kDirections[] = {
     {.name = "ir",
@@ -51,6 +55,15 @@ constexpr Direction kDirections[] = {
      .target_mill = "mazak-mill",
      .target_lathe = "mazak-qtn",
      .without = {kWithTools, kWithoutTools}},
+    {.name = "flat",
+     .title = "SINUMERIK flattened: the flat blocks read back and run",
+     .flavour = Flavour::kSinumerik,
+     .mill = "sinumerik-840d-mill",
+     .lathe = "sinumerik-840d-lathe",
+     .check = CheckFlat,
+     .target_mill = "iso-mill",
+     .target_lathe = "iso-lathe",
+     .without = {kNotFlat, kNotFlat}},
     {.name = "check",
      .title = "alarms of runs with changed values: all announced by check",
      .flavour = Flavour::kSinumerik,

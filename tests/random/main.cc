@@ -76,7 +76,8 @@ bool ParseArguments(int argc, char** argv, Arguments& arguments) {
 }
 
 struct Tally {
-  std::uint64_t agrees = 0, refused = 0, fails = 0;
+  std::uint64_t agrees = 0, refused = 0, fails = 0, no_program = 0;
+  [[nodiscard]] std::uint64_t Checked() const { return agrees + refused + fails; }
 };
 
 /// A direction ready to be checked, on mills and lathes.
@@ -159,6 +160,9 @@ int RunAll(const Arguments& arguments) {
         case Verdict::kAgrees:
           ++next.tally.agrees;
           break;
+        case Verdict::kNoProgram:
+          ++next.tally.no_program;
+          break;
         case Verdict::kRefused:
           ++next.tally.refused;
           ++refusals[fmt::format("{} {}", next.direction->name, finding.stage)];
@@ -184,13 +188,14 @@ int RunAll(const Arguments& arguments) {
     fmt::print("\n{}", table.View());
   }
   std::uint64_t passed = 0, failed = unlisted.size();
-  fmt::print("\n{:<24}{:>10}{:>10}{:>10}\n", "direction", "agree", "refused", "fail");
+  fmt::print("\n{:<24}{:>10}{:>10}{:>10}{:>10}\n", "direction", "agree", "refused", "fail", "none");
   for (const Prepared& next : prepared) {
     const Tally& tally = next.tally;
-    fmt::print("{:<24}{:>10}{:>10}{:>10}\n", next.direction->name, tally.agrees, tally.refused, tally.fails);
+    fmt::print("{:<24}{:>10}{:>10}{:>10}{:>10}\n", next.direction->name, tally.agrees, tally.refused, tally.fails,
+               tally.no_program);
     passed += tally.agrees + tally.refused;
     failed += tally.fails;
-    if (tally.refused * 10 > arguments.count && arguments.count >= 20) {
+    if (tally.refused * 10 > tally.Checked() && tally.Checked() >= 20) {
       fmt::print("{}: more than a tenth is refused\n", next.direction->name);
       ++failed;
     }

@@ -281,7 +281,7 @@ void Maker::MakeThread() {
       Touch(kFeedGroup);
       known_.feed = false;
     }
-    if (random_.Percent(40)) Word(block, WordOp::kStartAngle, NumberIn({0, 359, false}, 1).id);
+    if (Draw(Feature::kThreadStart)) Word(block, WordOp::kStartAngle, NumberIn({0, 359, false}, 1).id);
   } else {
     Word(block, WordOp::kFeed, NumberIn({0.5 * unit, 4 * unit, false}, 1).id);
     Touch(kFeedGroup);

@@ -101,6 +101,11 @@ std::string FirstDifference(std::string_view a, std::string_view b) {
   return pair.number == 0 ? "no difference" : fmt::format("line {}:\n  {}\n  {}\n", pair.number, pair.a, pair.b);
 }
 
+std::string KindOfText(std::string_view what) {
+  std::string kind(what.substr(0, what.find_first_of("0123456789-")));
+  return kind.substr(0, 90);
+}
+
 std::string KindOfDifference(std::string_view a, std::string_view b) {
   const LinePair pair = FirstDifferentLines(a, b);
   return fmt::format("{}/{}", FirstWord(pair.a), FirstWord(pair.b));

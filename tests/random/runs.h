@@ -36,6 +36,9 @@ std::string FirstDifference(std::string_view a, std::string_view b);
 /// First words of the lines in which two texts differ first: what kind of event it is.
 std::string KindOfDifference(std::string_view a, std::string_view b);
 
+/// First words of a finding, up to the first number in it: what kind it is.
+std::string KindOfText(std::string_view what);
+
 /// The number of the first error, empty if there is none.
 std::string FirstError(const diag::Sink& sink);
 

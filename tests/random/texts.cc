@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "backends/sinumerik/print.h"
 #include "base/text_buffer.h"
 #include "frontend/reader.h"
@@ -15,6 +17,25 @@ std::vector<TextFile> PrintAll(const ir::Module& module, const dialects::Profile
     backends::sinumerik::PrintFile(module, FileId{i}, profile, out);
     texts.push_back({std::string(module.View(module.file_names[i])), std::string(out.View())});
   }
+  return texts;
+}
+
+std::vector<TextFile> PrintCalled(const ir::Module& module, ir::ProgramId main, const dialects::Profile& profile) {
+  const std::vector<TextFile> all = PrintAll(module, profile);
+  std::vector<ir::ProgramId> called{main};
+  for (std::size_t i = 0; i < called.size(); ++i) {
+    for (const ir::BlockId block : module.programs[called[i]].blocks) {
+      for (const ir::WordId id : module.blocks[block].words) {
+        const ir::Word& word = module.words[id];
+        const auto call = word.Extra<ir::CallId>();
+        if ((word.op != ir::WordOp::kCall && word.op != ir::WordOp::kModalCall) || !call.Valid()) continue;
+        const ir::ProgramId callee = module.calls[call].program;
+        if (callee.Valid() && std::ranges::find(called, callee) == called.end()) called.push_back(callee);
+      }
+    }
+  }
+  std::vector<TextFile> texts;
+  for (const ir::ProgramId program : called) texts.push_back(all[module.programs[program].file.value]);
   return texts;
 }
 

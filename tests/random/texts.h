@@ -19,6 +19,9 @@ struct TextFile {
 /// Each file of the module in the language of the profile.
 std::vector<TextFile> PrintAll(const ir::Module& module, const dialects::Profile& profile);
 
+/// The files of the main program and of those that it calls, as a command reads them.
+std::vector<TextFile> PrintCalled(const ir::Module& module, ir::ProgramId main, const dialects::Profile& profile);
+
 /// Reads all files and resolves their names. False after errors.
 bool ReadAll(const std::vector<TextFile>& texts, const dialects::Profile& profile, SourceFiles& files,
              ir::Module& module, diag::Sink& sink);

@@ -33,6 +33,12 @@ TEST_CASE("the start state of the vectors: SINUMERIK mill and lathe") {
   CHECK(MachineFor(BuiltIn("sinumerik-802s-lathe")).call_depth == 3);
 }
 
+TEST_CASE("the centre of a flat arc is where its words put it") {
+  // iso-6; SINUMERIK moves it between both ends (sinumerik-8.3).
+  CHECK_FALSE(MachineFor(BuiltIn("iso-mill")).arc_center_corrected);
+  CHECK(MachineFor(BuiltIn("sinumerik-840d-mill")).arc_center_corrected);
+}
+
 TEST_CASE("the start state of the vectors: Fanuc") {
   const ir::Machine mill = MachineFor(BuiltIn("fanuc-mill"));
   CHECK(mill.start.motion == ir::Motion::kRapid);

@@ -209,6 +209,18 @@ TEST_CASE("spindle states count where the tool cuts, not where they are written"
   CHECK_FALSE(Agree(a, other));
 }
 
+TEST_CASE("a speed may be off by the error of its own word, a length by no more than its own") {
+  Trace computed, whole, other;
+  computed.Value(EventKind::kSpindleSpeed, 213.4).Line(1, 0, 1).End();
+  whole.Value(EventKind::kSpindleSpeed, 213).Line(1, 0, 1).End();
+  other.Value(EventKind::kSpindleSpeed, 214).Line(1, 0, 1).End();
+  CompareOptions options;
+  CHECK(Compare(computed.recorded, whole.recorded, options).difference);
+  options.target.speed_error = 0.5;
+  CHECK_FALSE(Compare(computed.recorded, whole.recorded, options).difference);
+  CHECK(Compare(computed.recorded, other.recorded, options).difference);
+}
+
 TEST_CASE("a second spindle counts as the first one does") {
   const auto second = [](double speed) {
     Event event;

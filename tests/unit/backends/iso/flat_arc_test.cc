@@ -67,6 +67,9 @@ TEST_CASE("the two radii of a written arc agree within two increments, wherever 
     const double end = std::hypot(static_cast<double>(arc.to[0] - arc.from[0]) - i0,
                                   static_cast<double>(arc.to[1] - arc.from[1]) - j0);
     REQUIRE(std::fabs(start - end) <= 2.0);
+    // The centre has the error of two words, no more (contracts section 6).
+    REQUIRE(std::fabs(static_cast<double>(arc.from[0]) + i0 - exact.center[0] * 1000) <= 1.0 + 1e-6);
+    REQUIRE(std::fabs(static_cast<double>(arc.from[1]) + j0 - exact.center[1] * 1000) <= 1.0 + 1e-6);
     // The written arc turns as far as the exact one.
     const ExactArc written{{0, 0},
                            {static_cast<double>(arc.to[0] - arc.from[0]), static_cast<double>(arc.to[1] - arc.from[1])},

@@ -1,5 +1,6 @@
 #include "check/structure_rules.h"
 #include "check/word_expressions.h"
+#include "ir/comparison.h"
 
 namespace ncport::check {
 
@@ -8,8 +9,6 @@ namespace {
 using ir::Expr;
 using ir::ExprId;
 using ir::ExprOp;
-
-bool IsComparison(ExprOp op) { return op >= ExprOp::kEqual && op <= ExprOp::kGreaterEqual; }
 
 /// AND, OR, XOR or NOT that stands without brackets, past conversions that the compiler made.
 ExprOp LogicIn(const ir::Module& module, ExprId id) {
@@ -28,7 +27,7 @@ ExprOp LogicIn(const ir::Module& module, ExprId id) {
 /// The first comparison with bare logic beside it.
 bool Find(const ir::Module& module, ExprId id, ExprId& found, ExprOp& logic) {
   const Expr& expr = module.exprs[id];
-  if (IsComparison(expr.op)) {
+  if (ir::IsComparison(expr.op)) {
     for (const std::uint32_t side : {expr.a, expr.b}) {
       logic = LogicIn(module, ExprId{std::size_t{side}});
       if (logic == ExprOp::kLiteral) continue;

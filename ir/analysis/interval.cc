@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ir/comparison.h"
 #include "ir/ops/arithmetic.h"
 #include "ir/ops/convert.h"
 
@@ -287,21 +288,6 @@ double Slack(double bound, double tolerance) {
   return tolerance == 0 || std::isinf(bound) ? 0.0 : 2 * tolerance * std::fabs(bound);
 }
 
-ExprOp Turned(ExprOp op) {
-  switch (op) {
-    case ExprOp::kLess:
-      return ExprOp::kGreater;
-    case ExprOp::kLessEqual:
-      return ExprOp::kGreaterEqual;
-    case ExprOp::kGreater:
-      return ExprOp::kLess;
-    case ExprOp::kGreaterEqual:
-      return ExprOp::kLessEqual;
-    default:
-      return op;
-  }
-}
-
 }  // namespace
 
 Interval Compared(ExprOp op, const Interval& left, const Interval& right, double tolerance) {
@@ -325,27 +311,11 @@ Interval Compared(ExprOp op, const Interval& left, const Interval& right, double
     may_be_false = !holds;
   } else {
     const Interval yes = Constrained(op, a, b, tolerance);
-    const Interval yes_right = Constrained(Turned(op), b, a, tolerance);
+    const Interval yes_right = Constrained(Swapped(op), b, a, tolerance);
     may_be_true = yes.HasNumber() && yes_right.HasNumber();
-    constexpr auto opposite = [](ExprOp of) {
-      switch (of) {
-        case ExprOp::kEqual:
-          return ExprOp::kNotEqual;
-        case ExprOp::kNotEqual:
-          return ExprOp::kEqual;
-        case ExprOp::kLess:
-          return ExprOp::kGreaterEqual;
-        case ExprOp::kLessEqual:
-          return ExprOp::kGreater;
-        case ExprOp::kGreater:
-          return ExprOp::kLessEqual;
-        default:
-          return ExprOp::kLess;
-      }
-    };
-    const ExprOp other = opposite(op);
+    const ExprOp other = Negated(op);
     may_be_false =
-        Constrained(other, a, b, tolerance).HasNumber() && Constrained(Turned(other), b, a, tolerance).HasNumber();
+        Constrained(other, a, b, tolerance).HasNumber() && Constrained(Swapped(other), b, a, tolerance).HasNumber();
   }
   Interval result = Bool(may_be_false, may_be_true);
   result.flags |= flags;

@@ -2,42 +2,11 @@
 #include <cmath>
 
 #include "ir/analysis/value_transfer.h"
+#include "ir/comparison.h"
 
 namespace ncport::ir::analysis {
 
 namespace {
-
-ExprOp Opposite(ExprOp op) {
-  switch (op) {
-    case ExprOp::kEqual:
-      return ExprOp::kNotEqual;
-    case ExprOp::kNotEqual:
-      return ExprOp::kEqual;
-    case ExprOp::kLess:
-      return ExprOp::kGreaterEqual;
-    case ExprOp::kLessEqual:
-      return ExprOp::kGreater;
-    case ExprOp::kGreater:
-      return ExprOp::kLessEqual;
-    default:
-      return ExprOp::kLess;
-  }
-}
-
-ExprOp Turned(ExprOp op) {
-  switch (op) {
-    case ExprOp::kLess:
-      return ExprOp::kGreater;
-    case ExprOp::kLessEqual:
-      return ExprOp::kGreaterEqual;
-    case ExprOp::kGreater:
-      return ExprOp::kLess;
-    case ExprOp::kGreaterEqual:
-      return ExprOp::kLessEqual;
-    default:
-      return op;
-  }
-}
 
 bool IsNumber(Type type) { return type != Type::kString && type != Type::kAxis && type != Type::kFrame; }
 
@@ -106,7 +75,7 @@ bool ValueTransfer::AssumeComparison(const Expr& expr, bool holds) {
            side.op == ExprOp::kAxisName;
   };
   if (is_text(left) || is_text(right)) return true;
-  const ExprOp op = holds ? expr.op : Opposite(expr.op);
+  const ExprOp op = holds ? expr.op : Negated(expr.op);
   const double tolerance = (expr.flags & Expr::kTolerance) != 0 ? machine_.compare_tolerance : 0;
   const Interval a = Evaluate(left);
   const Interval b = Evaluate(right);
@@ -134,7 +103,7 @@ bool ValueTransfer::AssumeComparison(const Expr& expr, bool holds) {
   const Interval truth = Compared(op, a, b, tolerance);
   if (!truth.HasNumber() || truth.high == 0) return false;
   const Interval new_a = Constrained(op, a, VacantAsZero(b), tolerance);
-  const Interval new_b = Constrained(Turned(op), b, VacantAsZero(a), tolerance);
+  const Interval new_b = Constrained(Swapped(op), b, VacantAsZero(a), tolerance);
   if (new_a.IsNone() || new_b.IsNone()) return false;
   return Narrow(left, new_a) && Narrow(right, new_b);
 }

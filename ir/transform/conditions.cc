@@ -1,27 +1,11 @@
 #include "ir/transform/conditions.h"
 
 #include "ir/builder.h"
+#include "ir/comparison.h"
 
 namespace ncport::ir::transform {
 
 namespace {
-
-ExprOp Opposite(ExprOp op) {
-  switch (op) {
-    case ExprOp::kEqual:
-      return ExprOp::kNotEqual;
-    case ExprOp::kNotEqual:
-      return ExprOp::kEqual;
-    case ExprOp::kLess:
-      return ExprOp::kGreaterEqual;
-    case ExprOp::kLessEqual:
-      return ExprOp::kGreater;
-    case ExprOp::kGreater:
-      return ExprOp::kLessEqual;
-    default:
-      return ExprOp::kLess;
-  }
-}
 
 /// Below brackets and conversions to BOOL, which change no truth.
 ExprId Core(const Module& module, ExprId id) {
@@ -136,7 +120,7 @@ void Chain::Add(ExprId id, bool sense, std::int32_t label) {
       break;
   }
   if (IsComparison(expr.op)) {
-    const ExprId condition = sense ? id : make_.Binary(Opposite(expr.op), ExprId{expr.a}, ExprId{expr.b}, expr.flags);
+    const ExprId condition = sense ? id : make_.Binary(Negated(expr.op), ExprId{expr.a}, ExprId{expr.b}, expr.flags);
     steps_.push_back({condition, label});
     return;
   }
@@ -144,20 +128,6 @@ void Chain::Add(ExprId id, bool sense, std::int32_t label) {
 }
 
 }  // namespace
-
-bool IsComparison(ExprOp op) {
-  switch (op) {
-    case ExprOp::kEqual:
-    case ExprOp::kNotEqual:
-    case ExprOp::kLess:
-    case ExprOp::kLessEqual:
-    case ExprOp::kGreater:
-    case ExprOp::kGreaterEqual:
-      return true;
-    default:
-      return false;
-  }
-}
 
 bool IsTruth(const Module& module, ExprId expr) {
   const ExprOp op = module.exprs[Core(module, expr)].op;

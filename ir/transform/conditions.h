@@ -13,8 +13,6 @@ namespace ncport::ir::transform {
 bool IsPlainComparison(const Module& module, ExprId condition);
 /// A variable, a cell with a fixed number, or a literal: reading it twice costs nothing and changes nothing.
 bool IsSimplePlace(const Module& module, ExprId expr);
-/// Equal, NotEqual, Less ...
-bool IsComparison(ExprOp op);
 /// A comparison, AND, OR, XOR or NOT, perhaps in brackets: its value is a truth value.
 bool IsTruth(const Module& module, ExprId expr);
 

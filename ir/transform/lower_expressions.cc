@@ -9,6 +9,7 @@
 
 #include "ir/analysis/number_kinds.h"
 #include "ir/builder.h"
+#include "ir/comparison.h"
 #include "ir/transform/conditions.h"
 #include "ir/transform/new_local.h"
 #include "ir/transform/program_editor.h"

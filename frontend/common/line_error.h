@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "base/diag/codes.h"
+#include "frontend/common/shape_cache.h"
+#include "frontend/common/token.h"
 
 namespace ncport::frontend {
 
@@ -16,5 +19,16 @@ struct LineError {
   const char* help = nullptr;                       // static text
   const char* detail = nullptr;  // static text that takes the place of the word, or a second argument
 };
+
+/// What the parser found, at its place among the tokens of a block.
+inline LineError ErrorOf(const ShapeError& error, std::span<const Token> tokens) {
+  const bool at_end = error.token >= tokens.size();
+  const std::uint32_t end = tokens.empty() ? 0 : tokens.back().End();
+  return {.code = error.code,
+          .begin = at_end ? end : tokens[error.token].offset,
+          .length = at_end ? 0 : tokens[error.token].length,
+          .help = error.help,
+          .detail = error.expected};
+}
 
 }  // namespace ncport::frontend

@@ -4,11 +4,12 @@
 
 #include "dialects/finding_alarms.h"
 #include "frontend/common/add_spaces.h"
+#include "frontend/common/block_sink.h"
 #include "frontend/common/chars.h"
 #include "frontend/common/line_error.h"
 #include "frontend/common/module_mark.h"
+#include "frontend/common/recipe_source.h"
 #include "frontend/common/report_line_error.h"
-#include "frontend/common/shape_cache.h"
 #include "frontend/common/token_listener.h"
 #include "frontend/fanuc/hints.h"
 #include "frontend/fanuc/lower.h"
@@ -30,11 +31,6 @@ constexpr std::string_view kTokenNames[] = {
 using diag::Code;
 using ir::WordOp;
 using K = TokenKind;
-
-std::string_view TrimEnd(std::string_view text) {
-  while (!text.empty() && static_cast<unsigned char>(text.back()) <= ' ') text.remove_suffix(1);
-  return text;
-}
 
 /// Mark that a refused block would have been, so that its partner is not a stray. kMotion: none.
 WordOp MarkOf(K structure, std::span<const Token> tokens) {
@@ -91,12 +87,12 @@ class Reader {
         module_(module),
         sink_(sink),
         source_(module.strings, profile.fanuc.expression_without_brackets.Or(false)),
-        lowering_(module, profile, system, state_) {}
+        lowering_(module, profile, system, state_),
+        recipes_(options.shape_cache),
+        blocks_(files, file, module) {}
 
   void Read() {
     const std::uint32_t lines = files_.LineCount(file_);
-    module_.blocks.Reserve(module_.blocks.Size() + lines);
-    module_.origins.Reserve(module_.origins.Size() + lines);
     StartProgram(ProgramNameOfFile(files_.Name(file_)));
     for (std::uint32_t line = 1; line <= lines; ++line) {
       const std::string_view text = files_.Line(file_, line);
@@ -135,24 +131,8 @@ class Reader {
   bool ReadFileMark(std::string_view text, std::uint32_t line) {
     const std::string_view mark = TrimEnd(text);
     if (mark.empty() || mark[0] != '%') return false;
-    ir::Block block = NewBlock(line);
-    ir::Word word;
-    word.op = WordOp::kFileMark;
-    word.length = static_cast<std::uint32_t>(mark.size());
-    word.spelling = static_cast<std::uint16_t>(module_.spellings.size());
-    module_.spellings.push_back({module_.strings.Intern(mark), module_.strings.Intern("fanuc-1")});
-    block.words = {module_.words.Add(word).value, 1};
-    module_.blocks.Add(block);
+    blocks_.AddFileMark(line, mark, "fanuc-1");
     return true;
-  }
-
-  ir::Block NewBlock(std::uint32_t line) {
-    ir::Block block;
-    block.origin = ir::OriginId{module_.origins.Size()};
-    ir::Origin& origin = module_.origins.Emplace();
-    origin.file = file_;
-    origin.line = line;
-    return block;
   }
 
   // A head begins the next program; the first head names the one that the file began with.
@@ -179,9 +159,8 @@ class Reader {
     if (options_.tokens != nullptr) options_.tokens->OnTokens(file_, line, text, source_.Tokens(), kTokenNames);
     const std::span<const Token> tokens = source_.Tokens();
     if (!tokens.empty()) Head(tokens, line);
-    ir::Block block = NewBlock(line);
+    ir::Block block = blocks_.New(line);
     block.indent = static_cast<std::uint16_t>(std::min<std::uint32_t>(source_.Indent(), 0xFFFF));
-    block.words.begin = static_cast<std::uint32_t>(module_.words.Size());
     std::uint32_t used_comment = Lowering::kNoComment;
     if (!tokens.empty() || source_.Error() != nullptr) {
       state_.program_used = true;
@@ -194,7 +173,7 @@ class Reader {
       }
     }
     AddComments(text, used_comment, block);
-    module_.blocks.Add(block);
+    blocks_.Add(block);
     return source_.Next();
   }
 
@@ -210,15 +189,9 @@ class Reader {
       error_ = {.code = Code::kNotSupported, .begin = refused->offset, .length = refused->length};
       return &error_;
     }
-    const Recipe& recipe = RecipeOf(tokens);
+    const Recipe& recipe = recipes_.Of(tokens);
     if (recipe.failed) {
-      const bool at_end = recipe.error.token >= tokens.size();
-      const std::uint32_t end = tokens.empty() ? 0 : tokens.back().End();
-      error_ = {.code = recipe.error.code,
-                .begin = at_end ? end : tokens[recipe.error.token].offset,
-                .length = at_end ? 0 : tokens[recipe.error.token].length,
-                .help = recipe.error.help,
-                .detail = recipe.error.expected};
+      error_ = ErrorOf(recipe.error, tokens);
       ExplainError(text, error_, help_);
       return &error_;
     }
@@ -231,15 +204,6 @@ class Reader {
       return &error_;
     }
     return nullptr;
-  }
-
-  const Recipe& RecipeOf(std::span<const Token> tokens) {
-    if (options_.shape_cache) {
-      if (const Recipe* known = cache_.Find(tokens)) return *known;
-      return cache_.Add(tokens, parser_.Parse(tokens));
-    }
-    uncached_ = parser_.Parse(tokens);
-    return uncached_;
   }
 
   // Keeps the text of the block behind its number, without the comments at its end.
@@ -257,22 +221,13 @@ class Reader {
         break;
       }
     }
-    while (begin < end && static_cast<unsigned char>(text[begin]) <= ' ') ++begin;
-    const std::string_view kept = TrimEnd(text.substr(begin, end - begin));
-    const WordOp mark = MarkOf(source_.StructureWord(), tokens);
+    WordOp mark = MarkOf(source_.StructureWord(), tokens);
     if (mark == WordOp::kWhile || mark == WordOp::kLoop) state_.loops.push_back({0, mark == WordOp::kLoop});
-    ir::Word word;
-    word.op = WordOp::kVerbatim;
-    word.index = ir::IsStructureMark(mark) ? static_cast<std::uint8_t>(mark) : std::uint8_t{0};
     if (mark == WordOp::kEndWhile && !state_.loops.empty()) {
-      if (state_.loops.back().endless) word.index = static_cast<std::uint8_t>(WordOp::kEndLoop);
+      if (state_.loops.back().endless) mark = WordOp::kEndLoop;
       state_.loops.pop_back();
     }
-    word.begin = begin;
-    word.length = static_cast<std::uint32_t>(kept.size());
-    word.extra = module_.strings.Intern(kept).value;
-    block.words = {module_.words.Add(word).value, 1};
-    block.flags |= ir::Block::kRefused;
+    blocks_.KeepRefused(text, begin, end, mark, block);
   }
 
   // Comments between words go to the word behind them; the text of an alarm is part of its word.
@@ -289,9 +244,7 @@ class Reader {
         comment.place = ir::CommentPlace::kOwnLine;
       } else if (part.token >= tokens.size()) {
         comment.place = ir::CommentPlace::kEndOfBlock;
-        std::uint32_t gap = 0;
-        while (gap < part.open && static_cast<unsigned char>(text[part.open - gap - 1]) <= ' ') ++gap;
-        comment.gap = static_cast<std::uint16_t>(std::min<std::uint32_t>(gap, 0xFFFF));
+        comment.gap = GapBefore(text, part.open);
       } else {
         if (refused) continue;  // it stands in the text that was kept
         comment.place = ir::CommentPlace::kBeforeWord;
@@ -314,9 +267,8 @@ class Reader {
   ReaderState state_;
   TokenSource source_;
   Lowering lowering_;
-  ShapeCache cache_;
-  BlockParser parser_;
-  Recipe uncached_;
+  RecipeSource<BlockParser> recipes_;
+  BlockSink blocks_;
   LineError error_;
   std::string help_;  // of error_
 };

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 
+#include "frontend/common/block_sink.h"
 #include "frontend/common/chars.h"
 #include "frontend/common/module_mark.h"
+#include "frontend/common/recipe_source.h"
 #include "frontend/common/report_line_error.h"
-#include "frontend/common/reserve.h"
 #include "frontend/common/token_listener.h"
 #include "frontend/iso/lower.h"
 #include "frontend/iso/parser.h"
@@ -24,11 +25,6 @@ constexpr std::string_view kTokenNames[] = {
 
 using K = TokenKind;
 
-std::string_view Trim(std::string_view text) {
-  while (!text.empty() && static_cast<unsigned char>(text.back()) <= ' ') text.remove_suffix(1);
-  return text;
-}
-
 class Reader {
  public:
   Reader(const SourceFiles& files, FileId file, const dialects::Profile& profile, const ReadOptions& options,
@@ -39,7 +35,9 @@ class Reader {
         module_(module),
         sink_(sink),
         source_(profile),
-        lowering_(module, profile) {}
+        lowering_(module, profile),
+        recipes_(options.shape_cache),
+        blocks_(files, file, module) {}
 
   void Read() {
     ir::Program program;
@@ -48,9 +46,6 @@ class Reader {
     program.file = file_;
     program.blocks.begin = static_cast<std::uint32_t>(module_.blocks.Size());
     const std::uint32_t lines = files_.LineCount(file_);
-    module_.blocks.Reserve(module_.blocks.Size() + lines);
-    module_.origins.Reserve(module_.origins.Size() + lines);
-    ReserveFor(files_.Text(file_).size(), module_);
     for (std::uint32_t line = 1; line <= lines; ++line) ReadLine(files_.Line(file_, line), line);
     program.blocks.count = static_cast<std::uint32_t>(module_.blocks.Size()) - program.blocks.begin;
     module_.programs.Add(program);
@@ -65,18 +60,11 @@ class Reader {
   }
 
   void ReadLine(std::string_view text, std::uint32_t line) {
-    ir::Block block;
-    block.origin = ir::AddOrigin(module_, file_, line);
-    block.words.begin = static_cast<std::uint32_t>(module_.words.Size());
-    if (Trim(text) == "%") {
-      ir::Word word;
-      word.op = ir::WordOp::kFileMark;
-      word.length = 1;
-      word.spelling = ir::AddSpelling(module_, "%", "iso-1");
-      block.words = {module_.words.Add(word).value, 1};
-      module_.blocks.Add(block);
+    if (TrimEnd(text) == "%") {
+      blocks_.AddFileMark(line, "%", "iso-1");
       return;
     }
+    ir::Block block = blocks_.New(line);
     source_.Lex(text);
     if (options_.tokens != nullptr) options_.tokens->OnTokens(file_, line, text, source_.Tokens(), kTokenNames);
     block.indent = static_cast<std::uint16_t>(std::min<std::uint32_t>(source_.Indent(), 0xFFFF));
@@ -91,19 +79,16 @@ class Reader {
     } else {
       AddComments(text, tokens, block);
     }
-    module_.blocks.Add(block);
+    blocks_.Add(block);
   }
 
   const LineError* Words(std::string_view text, ir::Block& block) {
     if (source_.Error() != nullptr) return source_.Error();
     const std::span<const Token> tokens = source_.Tokens();
     if (tokens.empty()) return nullptr;
-    const Recipe& recipe = RecipeOf(tokens);
+    const Recipe& recipe = recipes_.Of(tokens);
     if (recipe.failed) {
-      const bool at_end = recipe.error.token >= tokens.size();
-      const Token& place = at_end ? tokens.back() : tokens[recipe.error.token];
-      error_ = {
-          .code = recipe.error.code, .begin = at_end ? place.End() : place.offset, .length = at_end ? 0 : place.length};
+      error_ = ErrorOf(recipe.error, tokens);
       return &error_;
     }
     const ModuleMark mark(module_);
@@ -113,27 +98,10 @@ class Reader {
     return &lowering_.Error();
   }
 
-  const Recipe& RecipeOf(std::span<const Token> tokens) {
-    if (options_.shape_cache) {
-      if (const Recipe* known = cache_.Find(tokens)) return *known;
-      return cache_.Add(tokens, parser_.Parse(tokens));
-    }
-    uncached_ = parser_.Parse(tokens);
-    return uncached_;
-  }
-
   void Refuse(std::string_view text, ir::Block& block) {
-    const std::string_view kept = Trim(text.substr(block.indent));
-    ir::Word word;
-    word.op = ir::WordOp::kVerbatim;
-    word.index = static_cast<std::uint8_t>(ir::WordOp::kMotion);  // no mark of a structure
-    word.begin = block.indent;
-    word.length = static_cast<std::uint32_t>(kept.size());
-    word.extra = module_.strings.Intern(kept).value;
-    block.words = {module_.words.Add(word).value, 1};
+    blocks_.KeepRefused(text, block.indent, static_cast<std::uint32_t>(text.size()), ir::WordOp::kMotion, block);
     block.number = ir::Block::kNoNumber;  // it stands in the text
     block.number_digits = 0;
-    block.flags |= ir::Block::kRefused;
   }
 
   void AddComments(std::string_view text, std::span<const Token> tokens, ir::Block& block) {
@@ -165,9 +133,8 @@ class Reader {
   diag::Sink& sink_;
   TokenSource source_;
   Lowering lowering_;
-  ShapeCache cache_;
-  BlockParser parser_;
-  Recipe uncached_;
+  RecipeSource<BlockParser> recipes_;
+  BlockSink blocks_;
   LineError error_;
 };
 

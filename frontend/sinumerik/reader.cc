@@ -4,12 +4,12 @@
 
 #include "dialects/finding_alarms.h"
 #include "frontend/common/add_spaces.h"
+#include "frontend/common/block_sink.h"
 #include "frontend/common/chars.h"
 #include "frontend/common/line_error.h"
 #include "frontend/common/module_mark.h"
+#include "frontend/common/recipe_source.h"
 #include "frontend/common/report_line_error.h"
-#include "frontend/common/reserve.h"
-#include "frontend/common/shape_cache.h"
 #include "frontend/common/token_listener.h"
 #include "frontend/sinumerik/hints.h"
 #include "frontend/sinumerik/lower.h"
@@ -32,11 +32,6 @@ constexpr std::string_view kTokenNames[] = {
 using diag::Code;
 using ir::WordOp;
 using K = TokenKind;
-
-std::string_view TrimEnd(std::string_view text) {
-  while (!text.empty() && static_cast<unsigned char>(text.back()) <= ' ') text.remove_suffix(1);
-  return text;
-}
 
 bool EndsWithWord(std::string_view text, std::string_view upper) {
   return text.size() > upper.size() && IsWord(text.substr(text.size() - upper.size()), upper);
@@ -121,7 +116,9 @@ class Reader {
         module_(module),
         sink_(sink),
         source_(module.strings),
-        lowering_(module, profile, state_) {}
+        lowering_(module, profile, state_),
+        recipes_(options.shape_cache),
+        blocks_(files, file, module) {}
 
   void Read() {
     const std::string_view name = files_.Name(file_);
@@ -129,9 +126,6 @@ class Reader {
     const bool main = EndsWithWord(name, ".MPF") || (!EndsWithWord(name, ".SPF") && !EndsWithWord(name, ".CPF") &&
                                                      !state_.definition_file && module_.programs.Empty());
     const std::uint32_t lines = files_.LineCount(file_);
-    module_.blocks.Reserve(module_.blocks.Size() + lines);
-    module_.origins.Reserve(module_.origins.Size() + lines);
-    ReserveFor(files_.Text(file_).size(), module_);
     for (std::uint32_t line = FirstLine(lines); line <= lines; ++line) {
       const std::string_view text = files_.Line(file_, line);
       if (!text.empty() && text[0] == '%' && ReadFileMark(text, line)) continue;
@@ -198,38 +192,21 @@ class Reader {
     } else if (mark.size() > 1) {
       return false;
     }
-    ir::Block block = NewBlock(line);
-    ir::Word word;
-    word.op = WordOp::kFileMark;
-    word.length = static_cast<std::uint32_t>(mark.size());
-    word.spelling = static_cast<std::uint16_t>(module_.spellings.size());
-    module_.spellings.push_back({module_.strings.Intern(mark), module_.strings.Intern("sinumerik-1.1")});
-    block.words = {module_.words.Add(word).value, 1};
-    module_.blocks.Add(block);
+    blocks_.AddFileMark(line, mark, "sinumerik-1.1");
     return true;
   }
 
-  ir::Block NewBlock(std::uint32_t line) {
-    ir::Block block;
-    block.origin = ir::OriginId{module_.origins.Size()};
-    ir::Origin& origin = module_.origins.Emplace();
-    origin.file = file_;
-    origin.line = line;
-    return block;
-  }
-
   void ReadLine(std::string_view text, std::uint32_t line) {
-    ir::Block block = NewBlock(line);
+    ir::Block block = blocks_.New(line);
     source_.Lex(text, state_.macros);
     if (options_.tokens != nullptr) options_.tokens->OnTokens(file_, line, text, source_.Tokens(), kTokenNames);
     block.indent = static_cast<std::uint16_t>(std::min<std::uint32_t>(source_.Indent(), 0xFFFF));
     const std::span<const Token> tokens = source_.Tokens();
-    block.words.begin = static_cast<std::uint32_t>(module_.words.Size());
     if (state_.other_language) {
       block.indent = 0;
       if (!text.empty()) Refuse(text, block, 0);
       if (Contains(text, "G290")) state_.other_language = false;
-      module_.blocks.Add(block);
+      blocks_.Add(block);
       return;
     }
     if (!tokens.empty() || source_.Error() != nullptr) {
@@ -241,7 +218,7 @@ class Reader {
       }
     }
     if (source_.Comment() != TokenSource::kNoComment) AddComment(text, tokens.empty(), block);
-    module_.blocks.Add(block);
+    blocks_.Add(block);
   }
 
   // Words of the block; null = done, else why not. What was added is then taken back.
@@ -269,15 +246,9 @@ class Reader {
       ExplainRefused(text.substr(refused->offset, refused->length));
       return &error_;
     }
-    const Recipe& recipe = RecipeOf(tokens);
+    const Recipe& recipe = recipes_.Of(tokens);
     if (recipe.failed) {
-      const bool at_end = recipe.error.token >= tokens.size();
-      const std::uint32_t end = tokens.empty() ? 0 : tokens.back().End();
-      error_ = {.code = recipe.error.code,
-                .begin = at_end ? end : tokens[recipe.error.token].offset,
-                .length = at_end ? 0 : tokens[recipe.error.token].length,
-                .help = recipe.error.help,
-                .detail = recipe.error.expected};
+      error_ = ErrorOf(recipe.error, tokens);
       if (error_.help == nullptr || error_.code == Code::kNotAlone) {
         ExplainSyntax(tokens, recipe.error.token, text, error_, help_);
       }
@@ -338,15 +309,6 @@ class Reader {
     return &error_;
   }
 
-  const Recipe& RecipeOf(std::span<const Token> tokens) {
-    if (options_.shape_cache) {
-      if (const Recipe* known = cache_.Find(tokens)) return *known;
-      return cache_.Add(tokens, parser_.Parse(tokens));
-    }
-    uncached_ = parser_.Parse(tokens);
-    return uncached_;
-  }
-
   // Words that only tell the editor or the simulation something may stand before definitions.
   void CloseDefinitions(const ir::Block& block) {
     for (const ir::WordId id : block.words) {
@@ -371,16 +333,8 @@ class Reader {
     const std::uint32_t end = source_.Comment() != TokenSource::kNoComment && !state_.other_language
                                   ? source_.Comment()
                                   : static_cast<std::uint32_t>(text.size());
-    while (begin < end && static_cast<unsigned char>(text[begin]) <= ' ') ++begin;
-    const std::string_view kept = TrimEnd(text.substr(begin, end - begin));
-    ir::Word word;
-    word.op = WordOp::kVerbatim;
-    word.index = static_cast<std::uint8_t>(MarkOf(source_.StructureWord(), source_.Tokens(), kept));
-    word.begin = begin;
-    word.length = static_cast<std::uint32_t>(kept.size());
-    word.extra = module_.strings.Intern(kept).value;
-    block.words = {module_.words.Add(word).value, 1};
-    block.flags |= ir::Block::kRefused;
+    const WordOp mark = MarkOf(source_.StructureWord(), source_.Tokens(), text.substr(begin, end - begin));
+    blocks_.KeepRefused(text, begin, end, mark, block);
   }
 
   void AddComment(std::string_view text, bool own_line, ir::Block& block) {
@@ -389,9 +343,7 @@ class Reader {
     comment.text = module_.strings.Intern(TrimEnd(text.substr(at + 1)));
     if (!own_line) {
       comment.place = ir::CommentPlace::kEndOfBlock;
-      std::uint32_t gap = 0;
-      while (gap < at && static_cast<unsigned char>(text[at - gap - 1]) <= ' ') ++gap;
-      comment.gap = static_cast<std::uint16_t>(std::min<std::uint32_t>(gap, 0xFFFF));
+      comment.gap = GapBefore(text, at);
     }
     block.comments = {module_.comments.Add(comment).value, 1};
   }
@@ -405,9 +357,8 @@ class Reader {
   ReaderState state_;
   TokenSource source_;
   Lowering lowering_;
-  ShapeCache cache_;
-  BlockParser parser_;
-  Recipe uncached_;
+  RecipeSource<BlockParser> recipes_;
+  BlockSink blocks_;
   LineError error_;
   std::string help_;               // of error_
   std::uint32_t broken_line_ = 0;  // line that went on in the next one; 0 = none

@@ -113,20 +113,20 @@ constexpr SpecialRow kSpecials[] = {
     {"G118", S::kRefused, kMazak, {0, 0, 0}, "M functions during motion", "mazak-lathe-2.3"},
 };
 
-using Y = Cycle;
+using Y = ir::Cycle;
 using K = CycleKind;
 
 constexpr CycleRow kCycles[] = {
     // fanuc-8.7: on mills along the axis normal to the plane.
     {"G73", Y::kPeckChip, K::kDrill, kMills | kM, "RQFK", "peck drilling with chip breaking", "fanuc-8.7"},
-    {"G74", Y::kLeftTap, K::kDrill, kMills | kM, "RPFKQ", "left-hand tapping", "fanuc-8.7"},
+    {"G74", Y::kTapLeft, K::kDrill, kMills | kM, "RPFKQ", "left-hand tapping", "fanuc-8.7"},
     {"G76", Y::kFineBore, K::kDrill, kMills | kM, "RQPFK", "fine boring", "fanuc-8.7"},
     {"G81", Y::kDrill, K::kDrill, kMills | kM, "RFK", "drilling", "fanuc-8.7"},
     {"G82", Y::kDrillDwell, K::kDrill, kMills | kM, "RPFK", "drilling with dwell", "fanuc-8.7"},
     {"G83", Y::kPeck, K::kDrill, kMills | kM, "RQFK", "peck drilling", "fanuc-8.7"},
     {"G84", Y::kTap, K::kDrill, kMills | kM, "RPFKQ", "tapping", "fanuc-8.7"},
     {"G84.2", Y::kRigidTap, K::kDrill, kMills | kM, "RPFK", "rigid tapping", "fanuc-8.7"},
-    {"G84.3", Y::kRigidLeftTap, K::kDrill, kMills | kM, "RPFK", "rigid left-hand tapping", "fanuc-8.7"},
+    {"G84.3", Y::kRigidTapLeft, K::kDrill, kMills | kM, "RPFK", "rigid left-hand tapping", "fanuc-8.7"},
     {"G85", Y::kBoreFeed, K::kDrill, kMills | kM, "RFK", "boring, feed out", "fanuc-8.7"},
     {"G86", Y::kBoreStop, K::kDrill, kMills | kM, "RFK", "boring, spindle stop", "fanuc-8.7"},
     {"G87", Y::kBackBore, K::kDrill, kMills | kM, "RQPFK", "back boring", "fanuc-8.7"},
@@ -154,14 +154,14 @@ constexpr CycleRow kCycles[] = {
     {"G77", Y::kTurn, K::kTurningSingle, kB, "RFI", "turning cycle", "fanuc-8.8"},
     {"G20", Y::kTurn, K::kTurningSingle, kC, "RFI", "turning cycle", "fanuc-8.8"},
     {"G290", Y::kTurn, K::kTurningSingle, kM, "RF", "turning cycle", "mazak-lathe-2.2"},
-    {"G92", Y::kThread, K::kTurningSingle, kA | kT, "RFQI", "threading cycle", "fanuc-8.8"},
-    {"G78", Y::kThread, K::kTurningSingle, kB, "RFQI", "threading cycle", "fanuc-8.8"},
-    {"G21", Y::kThread, K::kTurningSingle, kC, "RFQI", "threading cycle", "fanuc-8.8"},
-    {"G292", Y::kThread, K::kTurningSingle, kM, "RF", "threading cycle", "mazak-lathe-2.2"},
-    {"G94", Y::kFace, K::kTurningSingle, kA | kT, "RFK", "facing cycle", "fanuc-8.8"},
-    {"G79", Y::kFace, K::kTurningSingle, kB, "RFK", "facing cycle", "fanuc-8.8"},
-    {"G24", Y::kFace, K::kTurningSingle, kC, "RFK", "facing cycle", "fanuc-8.8"},
-    {"G294", Y::kFace, K::kTurningSingle, kM, "RF", "facing cycle", "mazak-lathe-2.2"},
+    {"G92", Y::kTurnThread, K::kTurningSingle, kA | kT, "RFQI", "threading cycle", "fanuc-8.8"},
+    {"G78", Y::kTurnThread, K::kTurningSingle, kB, "RFQI", "threading cycle", "fanuc-8.8"},
+    {"G21", Y::kTurnThread, K::kTurningSingle, kC, "RFQI", "threading cycle", "fanuc-8.8"},
+    {"G292", Y::kTurnThread, K::kTurningSingle, kM, "RF", "threading cycle", "mazak-lathe-2.2"},
+    {"G94", Y::kTurnFace, K::kTurningSingle, kA | kT, "RFK", "facing cycle", "fanuc-8.8"},
+    {"G79", Y::kTurnFace, K::kTurningSingle, kB, "RFK", "facing cycle", "fanuc-8.8"},
+    {"G24", Y::kTurnFace, K::kTurningSingle, kC, "RFK", "facing cycle", "fanuc-8.8"},
+    {"G294", Y::kTurnFace, K::kTurningSingle, kM, "RF", "facing cycle", "mazak-lathe-2.2"},
     {"G70", Y::kFinish, K::kRepetitive, kA | kB | kT, "PQFST", "finishing", "fanuc-8.8"},
     {"G72", Y::kFinish, K::kRepetitive, kC, "PQFST", "finishing", "fanuc-8.8"},
     {"G270", Y::kFinish, K::kRepetitive, kM, "APQ", "finishing", "mazak-lathe-2.5"},

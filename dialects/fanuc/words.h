@@ -82,46 +82,9 @@ std::string_view TextOf(System system, Special special);
 /// Canned cycles. Drill cycles run at each block that names a position until G80 or a group-01 code (fanuc-8.7); single
 /// lathe cycles likewise; repetitive ones at once (fanuc-8.8).
 enum class CycleKind : std::uint8_t { kDrill, kTurningSingle, kRepetitive };
-enum class Cycle : std::uint8_t {
-  // drill, along the axis normal to the plane; on lathes along Z (face) or X (cross)
-  kPeckChip,
-  kLeftTap,
-  kFineBore,
-  kDrill,
-  kDrillDwell,
-  kPeck,
-  kTap,
-  kRigidTap,
-  kRigidLeftTap,
-  kBoreFeed,
-  kBoreStop,
-  kBackBore,
-  kBoreManual,
-  kBoreDwell,
-  kFacePeck,
-  kFaceTap,
-  kFaceRigidTap,
-  kFaceBore,
-  kCrossPeck,
-  kCrossTap,
-  kCrossRigidTap,
-  kCrossBore,
-  // single
-  kTurn,
-  kThread,
-  kFace,
-  // repetitive
-  kFinish,
-  kRoughTurn,
-  kRoughFace,
-  kPattern,
-  kFaceGroove,
-  kGroove,
-  kMultiThread,
-};
 struct CycleRow {
   std::string_view text;
-  Cycle cycle;
+  ir::Cycle cycle;
   CycleKind kind;
   std::uint16_t systems;
   std::string_view words;  // letters that belong to the cycle besides axis words

@@ -35,11 +35,11 @@ CycleLetter InSingleCycle(const words::CycleRow& row, char letter) {
     case 'R':
       return {L::kLength, F::kTaper};
     case 'I':
-      return row.cycle == words::Cycle::kFace ? L{L::kRefused, F::kTaper} : L{L::kLength, F::kTaper};
+      return row.cycle == ir::Cycle::kTurnFace ? L{L::kRefused, F::kTaper} : L{L::kLength, F::kTaper};
     case 'K':
-      return row.cycle == words::Cycle::kFace ? L{L::kLength, F::kTaper} : L{L::kRefused, F::kTaper};
+      return row.cycle == ir::Cycle::kTurnFace ? L{L::kLength, F::kTaper} : L{L::kRefused, F::kTaper};
     case 'Q':
-      return row.cycle == words::Cycle::kThread ? L{L::kStartAngle, F::kTaper} : L{L::kRefused, F::kTaper};
+      return row.cycle == ir::Cycle::kTurnThread ? L{L::kStartAngle, F::kTaper} : L{L::kRefused, F::kTaper};
     case 'P':
     case 'J':
     case 'L':
@@ -53,7 +53,7 @@ CycleLetter InSingleCycle(const words::CycleRow& row, char letter) {
 // G71 G72 G73 and G70: two blocks, or one with D (fanuc-8.8).
 CycleLetter InContourCycle(const words::CycleRow& row, char letter, const CycleBlock& block) {
   const bool second = block.block_numbers;
-  const bool pattern = row.cycle == words::Cycle::kPattern;
+  const bool pattern = row.cycle == ir::Cycle::kPattern;
   switch (letter) {
     case 'P':
       return {L::kWhole, F::kFirstBlock};
@@ -62,11 +62,11 @@ CycleLetter InContourCycle(const words::CycleRow& row, char letter, const CycleB
     case 'U':
       if (second) return {L::kLength, F::kAllowanceX};
       if (pattern) return {L::kLength, F::kReliefX};
-      return row.cycle == words::Cycle::kRoughTurn ? L{L::kLength, F::kDepth} : L{L::kRefused, F::kDepth};
+      return row.cycle == ir::Cycle::kRoughTurn ? L{L::kLength, F::kDepth} : L{L::kRefused, F::kDepth};
     case 'W':
       if (second) return {L::kLength, F::kAllowanceZ};
       if (pattern) return {L::kLength, F::kReliefZ};
-      return row.cycle == words::Cycle::kRoughFace ? L{L::kLength, F::kDepth} : L{L::kRefused, F::kDepth};
+      return row.cycle == ir::Cycle::kRoughFace ? L{L::kLength, F::kDepth} : L{L::kRefused, F::kDepth};
     case 'R':
       if (second) return {L::kRefused, F::kRetract};
       return pattern ? L{L::kWhole, F::kPasses} : L{L::kLength, F::kRetract};
@@ -88,7 +88,7 @@ CycleLetter InContourCycle(const words::CycleRow& row, char letter, const CycleB
 }
 
 CycleLetter InGrooveCycle(const words::CycleRow& row, char letter, const CycleBlock& block) {
-  const F relief = row.cycle == words::Cycle::kGroove ? F::kReliefZ : F::kReliefX;
+  const F relief = row.cycle == ir::Cycle::kGroove ? F::kReliefZ : F::kReliefX;
   switch (letter) {
     case 'R':
       return block.axis_words ? L{L::kLength, relief} : L{L::kLength, F::kRetract};
@@ -151,10 +151,10 @@ CycleLetter MeaningInCycle(const words::CycleRow& cycle, char letter, const Cycl
       break;
   }
   switch (cycle.cycle) {
-    case words::Cycle::kFaceGroove:
-    case words::Cycle::kGroove:
+    case ir::Cycle::kFaceGroove:
+    case ir::Cycle::kGroove:
       return InGrooveCycle(cycle, letter, block);
-    case words::Cycle::kMultiThread:
+    case ir::Cycle::kMultiThread:
       return InThreadCycle(letter, block);
     default:
       return InContourCycle(cycle, letter, block);

@@ -168,12 +168,12 @@ class Session {
   dialects::Config config_;
 };
 
-/// Writes a text that is complete to standard output.
 int CannotPrint(const OutputSink& out) {
   Say(fmt::format("cannot write standard output: {}", std::strerror(out.Error())));
   return kUsage;
 }
 
+/// Writes a text that is complete to standard output.
 int Print(std::string_view text) {
   OutputSink out(STDOUT_FILENO);
   return out.Write(text).Ok() ? kDone : CannotPrint(out);
@@ -196,11 +196,7 @@ int RunTrace(const TraceArguments& arguments) {
   OutputSink out(STDOUT_FILENO);
   const Status ok = Trace(session.context, session.TakeInputs(), options, out);
   const int code = session.End(ok);
-  if (out.Error() != 0) {
-    Say(fmt::format("cannot write standard output: {}", std::strerror(out.Error())));
-    return kUsage;
-  }
-  return code;
+  return out.Error() != 0 ? CannotPrint(out) : code;
 }
 
 struct FlattenArguments : Common, Running {

@@ -45,7 +45,7 @@ Status ReadCalled(Context& context, const ReadSettings& settings, std::unordered
   bool more = true;
   while (more) {
     more = false;
-    for (const StringId callee : frontend::UnknownCallees(set.module)) {
+    for (const StringId callee : frontend::UnknownCallees(set.module, set.profile.language)) {
       const std::string name(set.module.View(callee));
       if (!asked.insert(name).second) continue;
       std::optional<Input> found = settings.find(name);

@@ -13,22 +13,17 @@
 namespace ncport::app {
 namespace {
 
-bool IsMazakLathe(const dialects::Profile& target) {
-  return target.language == dialects::Language::kFanuc && target.IsLathe() &&
-         target.fanuc.variant.Is(dialects::FanucSettings::Variant::kMazak);
-}
-
 std::vector<std::string> Required(const TranslateReportInput& input) {
   const dialects::Profile& target = input.target;
   std::vector<std::string> lines;
   if (target.language == dialects::Language::kFanuc) {
     static constexpr std::string_view kSeries[] = {"", "A", "B", "C", "M", "T"};
     if (target.series.Known() && *target.series != dialects::Series::kNone)
-      lines.push_back(fmt::format("G codes of {} {}", IsMazakLathe(target) ? "series" : "system",
+      lines.push_back(fmt::format("G codes of {} {}", target.IsMazakLathe() ? "series" : "system",
                                   kSeries[static_cast<std::size_t>(*target.series)]));
     lines.emplace_back("the option custom macro (G65, variables, IF, GOTO)");
   }
-  if (IsMazakLathe(target))
+  if (target.IsMazakLathe())
     lines.emplace_back(
         "main program and macros in the standard program area; run from memory, not from card or network");
   if (!target.fanuc.control.Or("").empty()) lines.push_back("control " + *target.fanuc.control);
@@ -94,7 +89,7 @@ std::string WordsOf(const std::vector<backends::OutputFile>& files) {
 void AddAssumptions(const TranslateReportInput& input, Report& report) {
   for (const std::string& assumption : input.translation.assumptions)
     report.assumptions.push_back({assumption, "", {}});
-  if (!IsMazakLathe(input.target)) return;
+  if (!input.target.IsMazakLathe()) return;
   const std::string words = " " + WordsOf(input.files);
   const bool series_t = input.target.series.Is(dialects::Series::kT);
   for (const dialects::fanuc::MachineTest& test : dialects::fanuc::MachineTests()) {

@@ -294,7 +294,11 @@ struct Profile {
   NumSettings num;
   IsoSettings iso;
 
+  /// Digits of the offset in the T word of a turret: T0101 has two unless the key `tool` says otherwise.
+  [[nodiscard]] std::uint32_t OffsetDigits() const;
   [[nodiscard]] bool IsLathe() const { return machine == MachineKind::kLathe; }
+  /// The lathes of docs/languages/mazak-lathe.md.
+  [[nodiscard]] bool IsMazakLathe() const { return IsLathe() && fanuc.variant.Is(FanucSettings::Variant::kMazak); }
 };
 
 /// A built-in profile by its name, or the file at a path (it has a `/` or ends in `.toml`). The text of a file is added

@@ -81,4 +81,12 @@ std::string CheckTemplate(std::string_view pattern, std::string_view holes) {
   return {};
 }
 
+std::size_t WidthOf(std::string_view pattern, std::string_view hole) {
+  for (std::size_t open = pattern.find('{'); open != std::string_view::npos; open = pattern.find('{', open + 1)) {
+    const Hole found = ReadHole(pattern, open);
+    if (found.end != 0 && found.name == hole) return found.width == 0 ? 1 : found.width;
+  }
+  return 0;
+}
+
 }  // namespace ncport::dialects

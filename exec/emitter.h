@@ -52,9 +52,4 @@ class Emitter {
   bool moved_ = false;
 };
 
-/// True for kinds that move axes along a path.
-constexpr bool IsPathMotion(EventKind kind) {
-  return kind <= EventKind::kTap || kind == EventKind::kRapidMachine || kind == EventKind::kProbe;
-}
-
 }  // namespace ncport::exec

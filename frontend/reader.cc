@@ -30,23 +30,30 @@ Status ReadFile(const SourceFiles& files, FileId file, const dialects::Profile& 
   return Failure{};
 }
 
-std::vector<StringId> UnknownCallees(const ir::Module& module) {
+namespace {
+
+/// `known`: programs of the module as calls of the language name them.
+template <class Index>
+std::vector<StringId> CalleesNotIn(const Index& known, const ir::Module& module) {
   std::vector<StringId> unknown;
-  if (module.calls.Empty()) return unknown;
-  const ProgramNames names(module);
-  const sinumerik::ProgramIndex index(module);
   std::unordered_set<std::uint32_t> seen;
   for (const ir::Call& call : module.calls.All()) {
     StringId name = call.name;
     // CALL "name": the text is the name.
-    if (!name.Valid() && call.name_expr.Valid() && module.exprs[call.name_expr].op == ir::ExprOp::kText) {
+    if (!name.Valid() && call.name_expr.Valid() && module.exprs[call.name_expr].op == ir::ExprOp::kText)
       name.value = module.exprs[call.name_expr].a;
-    }
     if (!name.Valid() || call.program.Valid() || !seen.insert(name.value).second) continue;
-    const std::string_view text = module.View(name);
-    if (!names.Find(text).Valid() && !index.Find(text).Valid()) unknown.push_back(name);
+    if (!known.Find(module.View(name)).Valid()) unknown.push_back(name);
   }
   return unknown;
+}
+
+}  // namespace
+
+std::vector<StringId> UnknownCallees(const ir::Module& module, dialects::Language language) {
+  if (module.calls.Empty()) return {};
+  if (language == dialects::Language::kSinumerik) return CalleesNotIn(sinumerik::ProgramIndex(module), module);
+  return CalleesNotIn(ProgramNames(module), module);
 }
 
 void ResolveNames(SourceFiles& files, ir::Module& module, const dialects::Profile& profile, diag::Sink& sink) {

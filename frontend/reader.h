@@ -30,7 +30,7 @@ Status ReadFile(const SourceFiles& files, FileId file, const dialects::Profile& 
                 ir::Module& module, diag::Sink& sink);
 
 /// Names of called programs that the module does not hold, as written, each once: for looking up in folders (-I).
-std::vector<StringId> UnknownCallees(const ir::Module& module);
+std::vector<StringId> UnknownCallees(const ir::Module& module, dialects::Language language);
 
 /// When the set is complete: variables by scope, calls, jump targets that are variables, types, implicit conversions.
 /// Unknown callees that the language brings along as text are read into `files` and the module. After it no Name

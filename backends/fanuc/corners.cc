@@ -92,8 +92,7 @@ class Mapper {
     const Block block = module_.blocks[blocks[index]];
     const Word word = module_.words[id];
     const dialects::FanucSettings& fanuc = input_.profile->fanuc;
-    const bool mazak_lathe = fanuc.variant.Is(dialects::FanucSettings::Variant::kMazak) && input_.profile->IsLathe();
-    if (mazak_lathe || !fanuc.corner_words.Is(dialects::FanucSettings::CornerWords::kComma))
+    if (input_.profile->IsMazakLathe() || !fanuc.corner_words.Is(dialects::FanucSettings::CornerWords::kComma))
       return Refuse(block, word, "a chamfer or rounding (no word with a comma)",
                     "write the corner as moves of its own");
     const auto kind = static_cast<ChamferKind>(word.index);

@@ -27,10 +27,6 @@ using ir::transform::ProgramEditor;
 
 constexpr std::string_view kSafeZ = "{safe-z}", kB = "{b}";
 
-bool IsMazakLathe(const dialects::Profile& profile) {
-  return profile.fanuc.variant.Is(dialects::FanucSettings::Variant::kMazak) && profile.IsLathe();
-}
-
 Word TextWord(Module& module, std::string_view text) {
   Word word;
   word.op = WordOp::kInert;
@@ -175,7 +171,7 @@ bool NeedFrame(const RaiseInput& input, diag::Sink& sink) {
            in(profile.words.safe_position);
   };
   if (uses(kSafeZ)) known = dialects::Need(profile, profile.fanuc.safe_z, nowhere, sink) && known;
-  if (!IsMazakLathe(profile)) return known;
+  if (!profile.IsMazakLathe()) return known;
   known = dialects::Need(profile, profile.fanuc.c_axis, nowhere, sink) && known;
   if (!profile.series.Is(dialects::Series::kM)) return known;
   known = dialects::Need(profile, profile.fanuc.b_position, nowhere, sink) && known;
@@ -207,7 +203,7 @@ void FrameMainPrograms(const RaiseInput& input, Translation& out) {
         std::any_of(head.begin(), head.end(), [&](const std::string& line) { return HasWord(line, other); });
     if (differs) feed_word = by_minute ? minute : revolution;
   }
-  if (IsMazakLathe(profile)) {
+  if (profile.IsMazakLathe()) {
     if (*profile.fanuc.c_axis) head.emplace_back("M202");
     const std::string leave = profile.fanuc.leave_mazatrol.Or("");
     if (!leave.empty()) head.push_back(leave);

@@ -44,10 +44,6 @@ using ir::Word;
 using ir::WordOp;
 using namespace ir::transform;
 
-bool IsMazakLathe(const dialects::Profile& profile) {
-  return profile.fanuc.variant.Is(dialects::FanucSettings::Variant::kMazak) && profile.IsLathe();
-}
-
 NamesToNumbersConfig CellConfig(const RaiseInput& input) {
   NamesToNumbersConfig config;
   // Letters that travel plainly on all controls of the family: no I J K (list II), no G L N O P, no M S T
@@ -362,7 +358,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   for (const ir::ProgramId program : module.programs.Ids()) SplitStatements(module, program);
   // Programs are split before positions are followed: a position does not cross a tool change.
   SplitResult split;
-  if (IsMazakLathe(profile)) {
+  if (profile.IsMazakLathe()) {
     split = SplitAtToolChange(module, sink);
     ok = split.ok && ok;
   }
@@ -415,7 +411,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   LimitMWords(input, out);  // behind all that makes blocks
   ok = CheckLegal(input, out, sink) && ok && framed;
   ok = ok && CheckDigits(input, out, sink);
-  if (ok && IsMazakLathe(profile)) ok = CheckMazakLathe(input, out, sink);
+  if (ok && profile.IsMazakLathe()) ok = CheckMazakLathe(input, out, sink);
   return ok;
 }
 

@@ -96,7 +96,6 @@ class FlatWriter final : public exec::EventSink {
   void Arc(const exec::Event& event);
   void ArcPiece(const exec::Event& event, const ExactArc& arc, const double* end);
   void Thread(const exec::Event& event);
-  std::uint16_t AxesToWrite(const exec::Event& event) const;
   void AppendModes(const exec::Event& event, bool feed_move);
   void AppendMotion(ir::Motion motion);
   void AppendFeed(const exec::Event& event);

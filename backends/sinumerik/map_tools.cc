@@ -492,10 +492,7 @@ class Pass {
         return Refuse(block, at, "an offset without its tool");
       }
     } else {
-      const std::string form = input_.source_profile->words.tool.Or("");
-      const int digits = form.find("{offset:03}") != std::string::npos ? 3
-                         : form.find("{offset}") != std::string::npos  ? 1
-                                                                       : 2;
+      const auto digits = static_cast<int>(input_.source_profile->OffsetDigits());
       const int all = std::max<int>(at.digits, digits + 1);
       const auto text_of = [&](std::uint32_t register_number) {
         return fmt::format("T{:0{}}{:0{}}", *station, all - digits, register_number, digits);

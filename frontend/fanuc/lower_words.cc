@@ -20,78 +20,6 @@ namespace {
 constexpr std::uint8_t At8(ir::CycleField field) { return static_cast<std::uint8_t>(field); }
 constexpr std::uint8_t At8(FrameOp op) { return static_cast<std::uint8_t>(op); }
 
-ir::Cycle CycleOf(words::Cycle cycle) {
-  using W = words::Cycle;
-  using C = ir::Cycle;
-  switch (cycle) {
-    case W::kPeckChip:
-      return C::kPeckChip;
-    case W::kLeftTap:
-      return C::kTapLeft;
-    case W::kFineBore:
-      return C::kFineBore;
-    case W::kDrill:
-      return C::kDrill;
-    case W::kDrillDwell:
-      return C::kDrillDwell;
-    case W::kPeck:
-      return C::kPeck;
-    case W::kTap:
-      return C::kTap;
-    case W::kRigidTap:
-      return C::kRigidTap;
-    case W::kRigidLeftTap:
-      return C::kRigidTapLeft;
-    case W::kBoreFeed:
-      return C::kBoreFeed;
-    case W::kBoreStop:
-      return C::kBoreStop;
-    case W::kBackBore:
-      return C::kBackBore;
-    case W::kBoreManual:
-      return C::kBoreManual;
-    case W::kBoreDwell:
-      return C::kBoreDwell;
-    case W::kFacePeck:
-      return C::kFacePeck;
-    case W::kFaceTap:
-      return C::kFaceTap;
-    case W::kFaceRigidTap:
-      return C::kFaceRigidTap;
-    case W::kFaceBore:
-      return C::kFaceBore;
-    case W::kCrossPeck:
-      return C::kCrossPeck;
-    case W::kCrossTap:
-      return C::kCrossTap;
-    case W::kCrossRigidTap:
-      return C::kCrossRigidTap;
-    case W::kCrossBore:
-      return C::kCrossBore;
-    case W::kTurn:
-      return C::kTurn;
-    case W::kThread:
-      return C::kTurnThread;
-    case W::kFace:
-      return C::kTurnFace;
-    case W::kFinish:
-      return C::kFinish;
-    case W::kRoughTurn:
-      return C::kRoughTurn;
-    case W::kRoughFace:
-      return C::kRoughFace;
-    case W::kPattern:
-      return C::kPattern;
-    case W::kFaceGroove:
-      return C::kFaceGroove;
-    case W::kGroove:
-      return C::kGroove;
-    case W::kMultiThread:
-      return C::kMultiThread;
-  }
-  NCPORT_BUG("cycle {} has no meaning", static_cast<int>(cycle));
-}
-
 bool IsAxisLetter(char letter) {
   switch (letter) {
     case 'X':
@@ -341,7 +269,7 @@ bool Lowering::AddCode(const Pending& pending, const Context& context) {
   }
   if (meaning.cycle != nullptr) {
     Word& word = AddWord(WordOp::kCycle, pending);
-    word.index = static_cast<std::uint8_t>(CycleOf(meaning.cycle->cycle));
+    word.index = static_cast<std::uint8_t>(meaning.cycle->cycle);
     word.spelling = SpellingOf(meaning.cycle->text, meaning.cycle->rule);
     word.digits = token.digits;
     return true;
@@ -524,10 +452,8 @@ bool Lowering::AddTool(const Pending& pending) {
   if (!IsLiteral(pending))
     return Fail(Code::kNotSupported, pending, "the tool of a turret is translated as a number only");
   if (!Whole(pending)) return false;
-  const std::string tool = profile_.words.tool.Or("");
-  const double base = tool.find("{offset:03}") != std::string::npos ? 1000
-                      : tool.find("{offset}") != std::string::npos  ? 10
-                                                                    : 100;
+  double base = 1;
+  for (std::uint32_t digit = 0; digit < profile_.OffsetDigits(); ++digit) base *= 10;
   const double number = token.number;
   const double station = std::floor(number / base);
   if (station != 0) {

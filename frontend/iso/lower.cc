@@ -2,6 +2,7 @@
 
 #include "base/result.h"
 #include "dialects/iso/words.h"
+#include "dialects/word_template.h"
 #include "frontend/common/chars.h"
 #include "frontend/iso/token_kind.h"
 #include "ir/builder.h"
@@ -26,7 +27,7 @@ char LetterOfHole(const dialects::Setting<std::string>& form, char usual) {
 Lowering::Lowering(ir::Module& module, const dialects::Profile& profile)
     : module_(module),
       lathe_(profile.IsLathe()),
-      tool_holds_offset_(profile.words.tool.Known() && profile.words.tool->find("{offset") != std::string::npos),
+      tool_holds_offset_(profile.words.tool.Known() && dialects::WidthOf(*profile.words.tool, "offset") != 0),
       dwell_letter_(LetterOfHole(profile.words.dwell, 'P')) {
   code_spellings_.resize(dialects::iso::Codes().Rows().size());
 }

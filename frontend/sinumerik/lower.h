@@ -63,7 +63,6 @@ class Lowering {
   bool AddConstant(const Token& token);
   bool AddAxis(const Action& action);
   bool AddAddress(const Action& action);
-  bool FillAddress(ir::Word& word, const Row& row, const Token& token);
   bool AddComputedM(const Action& action);
   bool AddInertText(const Action& action);
   bool AddInertCall(const Action& action);
@@ -78,7 +77,6 @@ class Lowering {
   ir::Target TakeTarget();
   ir::JumpId AddJump(const Token& word);
   IdRange<ir::ArgId> TakeArguments(std::uint16_t count);
-  bool AddCall(const Action& action);
 
   // Definitions (lower_definitions.cc).
   bool Declare(const Action& action);

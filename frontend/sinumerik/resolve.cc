@@ -91,7 +91,7 @@ void Resolver::ReadLibrary() {
   // Cycles may call cycles: until nothing is added.
   for (bool added = true; added;) {
     added = false;
-    for (const StringId name : UnknownCallees(module_)) {
+    for (const StringId name : UnknownCallees(module_, profile_.language)) {
       const std::string plain = UpperOf(PlainProgramName(module_.View(name)));
       const auto text = dialects::sinumerik::LibraryCycle(plain);
       if (!text) continue;

@@ -72,7 +72,6 @@ class TokenSource {
   bool LexLetter(Cursor& c);
   void LexIdentifier(Cursor& c, const char* word_end);
   bool LexMacro(Cursor& c);
-  void LexTarget(Cursor& c);
   void LexAddress(Cursor& c);
   void LexAxis(Cursor& c, const char* start, const char* digits_end);
   void LexCode(Cursor& c);

@@ -51,7 +51,6 @@ class SlotMap {
   /// Some program assigns it, or passes it by reference.
   [[nodiscard]] bool IsWritten(VariableId variable) const;
   /// Calls whose program only the run knows, or block ranges, are among the programs.
-  [[nodiscard]] bool HasOpenCalls() const { return open_calls_; }
   /// Blocks of the program may run in an order that the flow graph does not show.
   [[nodiscard]] bool IsOpaque(ProgramId program) const;
   /// Numbers that the programs write, in order: where widening stops.

@@ -29,5 +29,11 @@ TEST_CASE("templates are checked against the holes of their key") {
   CHECK(CheckTemplate("T}", "tool") == "'}' without '{'");
 }
 
+TEST_CASE("the width of a hole") {
+  CHECK(WidthOf("T{tool:02}{offset:03}", "offset") == 3);
+  CHECK(WidthOf("T{tool:02}{offset}", "offset") == 1);
+  CHECK(WidthOf("T{tool:02}", "offset") == 0);
+}
+
 }  // namespace
 }  // namespace ncport::dialects

@@ -58,12 +58,12 @@ Group GroupOf(WordOp op) {
   }
 }
 
+}  // namespace
+
 bool IsMotionWord(WordOp op) {
   return (op >= WordOp::kAxis && op <= WordOp::kTurns) || op == WordOp::kPolarRadius || op == WordOp::kPolarAngle ||
-         op == WordOp::kContourAngle || op == WordOp::kReference;
+         op == WordOp::kContourAngle || op == WordOp::kReference || op == WordOp::kCycleValue;
 }
-
-}  // namespace
 
 ModalFlow::State ModalFlow::All(std::uint8_t value) {
   State state;
@@ -173,6 +173,7 @@ void ModalFlow::FindComputedGroups() {
 void ModalFlow::FindModalPrograms() {
   for (const Word& word : module_.words.All()) {
     if (word.op != WordOp::kModalCall || !module_.calls.Contains(word.Extra<CallId>())) continue;
+    modal_calls_ = true;
     const ProgramId program = module_.calls[word.Extra<CallId>()].program;
     if (program.Valid() && std::ranges::find(modal_programs_, program) == modal_programs_.end())
       modal_programs_.push_back(program);
@@ -293,7 +294,11 @@ ModalFlow::Walk ModalFlow::Through(BlockId id, const State& before) {
   // Calls act after the settings of their block.
   for (const WordId word_id : block.words) {
     const Word& word = module_.words[word_id];
-    if (word.op == WordOp::kModalCall) ChangeModalCall(word, walk.state);
+    if (word.op == WordOp::kModalCall) {
+      ChangeModalCall(word, walk.state);
+      // A block that starts one and moves runs it behind that move.
+      if (!IsNever(walk.at) && walk.at.modal_call != walk.state.modal_call) walk.at.modal_call = 0;
+    }
     if (word.op == WordOp::kCall && module_.calls.Contains(word.Extra<CallId>())) {
       ThroughCall(module_.calls[word.Extra<CallId>()], walk);
     }
@@ -468,8 +473,16 @@ ModalState ModalFlow::At(ProgramId program, BlockId block) const {
 ModalState ModalFlow::Entry(ProgramId program) const { return Decode(entries_[program.value]); }
 
 bool ModalFlow::ModalCallPossible(ProgramId program, BlockId block) const {
-  if (modal_programs_.empty() || !Reached(program, block)) return false;
+  if (!modal_calls_ || !Reached(program, block)) return false;
   return at_[block.value].modal_call != kNoCall;
+}
+
+CallId ModalFlow::ActiveModalCall(ProgramId program, BlockId block) const {
+  CallId call;
+  if (!Reached(program, block)) return call;
+  const std::uint32_t active = at_[block.value].modal_call;
+  if (active >= kKnownCall && active != kSame32 && active != kNever32) call.value = active - kKnownCall;
+  return call;
 }
 
 bool ModalFlow::Reached(ProgramId program, BlockId block) const {

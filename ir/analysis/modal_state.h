@@ -21,6 +21,9 @@ struct ModalOptions {
   ModalState sub_entry;
 };
 
+/// True for words with which a block may move, and so may run a modal call.
+bool IsMotionWord(WordOp op);
+
 /// Results for all programs of a module. Conservative: computed codes, calls that are not found, refused blocks and
 /// block ranges make unknown what they may change.
 class ModalFlow {
@@ -37,6 +40,8 @@ class ModalFlow {
   [[nodiscard]] ModalState Entry(ProgramId program) const;
   /// False if no modal call is active on any way to the block: its moves run no other program.
   [[nodiscard]] bool ModalCallPossible(ProgramId program, BlockId block) const;
+  /// The one modal call whose program may run behind the block; none: there is none, or not one on every way.
+  [[nodiscard]] CallId ActiveModalCall(ProgramId program, BlockId block) const;
   /// False if no way leads to the block from a start of its program that is ever taken.
   [[nodiscard]] bool Reached(ProgramId program, BlockId block) const;
 
@@ -100,6 +105,7 @@ class ModalFlow {
   std::vector<Summary> summaries_;         // per program
   std::vector<State> entries_;             // per program, absolute
   std::vector<ProgramId> modal_programs_;  // that some modal call of the module names
+  bool modal_calls_ = false;               // the module holds some
   bool entered_anew_ = false;              // an entry has grown in this sweep
   bool absolute_ = false;                  // second pass: callees are entered
   bool entries_changed_ = false;

@@ -180,12 +180,12 @@ bool MapTools(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   const std::string_view example = changes_by_m6 ? "T01.01 M6" : lathe ? "T0101" : "T1 M6 H1 D1";
   bool ok = true;
   // Of the module as it came: what is written below changes none of it.
-  const ToolFlow tools(module);
   const ir::analysis::FlowGraphs graphs(module);
   const ir::analysis::CallGraph calls(module);
   const ir::analysis::ModalFlow flow(
       module, *input.source_machine, graphs, calls,
       {input.source_machine->start, input.config != nullptr ? input.config->entry : ir::ModalState{}});
+  const ToolFlow tools({module, *input.source_machine, graphs, calls, flow});
   bool selects = false;  // some program selects a work offset
   for (const Word& word : module.words.All()) selects = selects || word.op == WordOp::kWorkOffset;
   for (const ir::ProgramId program : module.programs.Ids()) {

@@ -13,7 +13,11 @@ std::string AtHere(const std::string& text) {
   diag::Sink sink;
   const Result<ir::Module> module = ir::ParseDump("ncport-ir 1\nfile m\n" + text, sink);
   REQUIRE(module.Ok());
-  const ToolFlow flow(*module);
+  const ir::Machine machine;
+  const ir::analysis::FlowGraphs graphs(*module);
+  const ir::analysis::CallGraph calls(*module);
+  const ir::analysis::ModalFlow modal(*module, machine, graphs, calls, {});
+  const ToolFlow flow({*module, machine, graphs, calls, modal});
   for (const ir::BlockId id : module->blocks.Ids()) {
     if (module->View(module->blocks[id].label) == "HERE") return std::string(flow.Before(id));
   }
@@ -72,6 +76,21 @@ TEST_CASE("calls hand the tool on and bring one back") {
   // Called with two tools: neither is the one.
   CHECK(AtHere(caller + "  @m:3 : tool = 2:int\n  @m:4 : call name SUB calls SUB\n" + sub +
                "  @m:11 label HERE : edge = 2:int\n  @m:12 : return plain\n")
+            .empty());
+}
+
+TEST_CASE("a modal call may bring its tool behind each block with motion") {
+  const std::string sub = "program SUB sub @m:10 header\n  @m:11 : tool = 2:int\n  @m:12 : return plain\n";
+  const std::string caller = "program M main @m:0\n  @m:1 : modal-call name SUB calls SUB\n  @m:2 : tool = 3:int\n";
+  CHECK(AtHere(caller + "  @m:3 label HERE : edge = 2:int\n" + sub) == "T3");
+  CHECK(AtHere(caller + "  @m:3 : axis X = 1\n  @m:4 label HERE : edge = 2:int\n" + sub).empty());
+}
+
+TEST_CASE("behind a part with computed ends no tool is known") {
+  CHECK(AtHere("space R 0..9 real kept all zero\nprogram M main @m:0\n"
+               "  @m:1 : repeat-part first expression cell R[1]\n"
+               "  @m:2 : tool = 1:int\n"
+               "  @m:3 label HERE : edge = 2:int\n")
             .empty());
 }
 

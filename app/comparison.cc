@@ -45,7 +45,7 @@ bool ReadBack(const std::vector<backends::OutputFile>& files, const dialects::Pr
   return true;
 }
 
-prove::Maps MapsOf(const ir::Module& source, const backends::Translation& translation, bool separate_registers) {
+prove::Maps MapsOf(const ir::Module& source, const backends::Translation& translation) {
   prove::Maps maps;
   for (const ir::BlockId id : source.blocks.Ids()) {
     const ir::OriginId origin = source.blocks[id].origin;
@@ -72,7 +72,6 @@ prove::Maps MapsOf(const ir::Module& source, const backends::Translation& transl
     maps.work_offsets.push_back({use.source, use.target, use.source_extension, use.target_extension});
   }
   for (const backends::AuxUse& use : translation.aux) maps.aux.push_back({use.source, use.target});
-  maps.separate_registers = separate_registers;
   maps.tool_change_added = translation.tool_change_added;
   maps.messages_lost = translation.messages_lost;
   maps.path_lost = translation.path_lost;
@@ -135,21 +134,18 @@ prove::Verification CompareTranslation(Context& context, const ProgramSet& sourc
   options.poison_distance = !target.words.absolute.Or("").empty();
   options.compare.source = PrecisionOf(source.profile, source_machine);
   options.compare.target = PrecisionOf(target, target_machine);
-  options.compare.maps = MapsOf(source.module, translation, !target.IsLathe());
-  if (target.language == dialects::Language::kSinumerik) {
-    options.compare.maps.separate_registers = false;
-    options.compare.maps.source_registers =
-        source.profile.language == dialects::Language::kFanuc && !source.profile.IsLathe();
-  }
+  options.compare.maps = MapsOf(source.module, translation);
+  const dialects::ToolAddressing tools = target.Tools();
+  options.compare.maps.separate_registers = tools == dialects::ToolAddressing::kRegisters;
+  options.compare.maps.source_registers =
+      tools == dialects::ToolAddressing::kEdges && source.profile.Tools() == dialects::ToolAddressing::kRegisters;
   options.compare.maps.cross_language = source.profile.language != target.language;
   options.target_skip_shift = static_cast<int>(target.skip.Or(0) - source.profile.skip.Or(0));
   for (const ir::SpaceId space : module.spaces.Ids()) {
     if (module.spaces[space].lifetime == ir::Lifetime::kKept) options.garbage.push_back(space);
   }
   for (const ir::transform::CellMapping& mapping : translation.cells) {
-    if (mapping.outlives && mapping.count == 1)
-      options.final_values.emplace_back(mapping.source,
-                                        mapping.target.empty() ? fmt::format("#{}", mapping.first) : mapping.target);
+    if (mapping.outlives && mapping.count == 1) options.final_values.emplace_back(mapping.source, mapping.target);
   }
   prove::Side a;
   a.module = &source.module;

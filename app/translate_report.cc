@@ -8,25 +8,13 @@
 
 #include "app/source_hash.h"
 #include "app/translation_header.h"
-#include "dialects/fanuc/machine_tests.h"
 
 namespace ncport::app {
 namespace {
 
-std::vector<std::string> Required(const TranslateReportInput& input) {
+std::vector<std::string> Required(const TranslateReportInput& input, const backends::MachineSheet& sheet) {
   const dialects::Profile& target = input.target;
-  std::vector<std::string> lines;
-  if (target.language == dialects::Language::kFanuc) {
-    static constexpr std::string_view kSeries[] = {"", "A", "B", "C", "M", "T"};
-    if (target.series.Known() && *target.series != dialects::Series::kNone)
-      lines.push_back(fmt::format("G codes of {} {}", target.IsMazakLathe() ? "series" : "system",
-                                  kSeries[static_cast<std::size_t>(*target.series)]));
-    lines.emplace_back("the option custom macro (G65, variables, IF, GOTO)");
-  }
-  if (target.IsMazakLathe())
-    lines.emplace_back(
-        "main program and macros in the standard program area; run from memory, not from card or network");
-  if (!target.fanuc.control.Or("").empty()) lines.push_back("control " + *target.fanuc.control);
+  std::vector<std::string> lines = sheet.required;
   lines.push_back(fmt::format("lengths in {}, written with a decimal point, computed ones with {} decimals",
                               target.units.Is(dialects::LengthUnit::kInch) ? "inch" : "mm", target.decimals.Or(3)));
   if (target.increment.Known()) lines.push_back(fmt::format("least input increment {:g}", *target.increment));
@@ -48,7 +36,7 @@ void AddCells(const TranslateReportInput& input, Report& report) {
     const auto program = std::find_if(input.translation.programs.begin(), input.translation.programs.end(),
                                       [&](const backends::ProgramName& name) { return name.program == cell.program; });
     const std::string owner = program == input.translation.programs.end() ? std::string() : program->target;
-    const std::string place = cell.target.empty() ? fmt::format("#{}", cell.first) : cell.target;
+    const std::string& place = cell.target;
     if (cell.letter == 0) {
       report.variables.push_back(
           {cell.source, place, cell.common ? "common to all programs" : fmt::format("local of {}", owner)});
@@ -72,38 +60,6 @@ void AddCells(const TranslateReportInput& input, Report& report) {
   }
 }
 
-/// Output without comments: what the machine reads.
-std::string WordsOf(const std::vector<backends::OutputFile>& files) {
-  std::string words;
-  for (const backends::OutputFile& file : files) {
-    int depth = 0;
-    for (const char c : file.text) {
-      if (c == '(') ++depth;
-      if (depth == 0) words.push_back(c == '\n' ? ' ' : c);
-      if (c == ')' && depth > 0) --depth;
-    }
-  }
-  return words;
-}
-
-void AddAssumptions(const TranslateReportInput& input, Report& report) {
-  for (const std::string& assumption : input.translation.assumptions)
-    report.assumptions.push_back({assumption, "", {}});
-  if (!input.target.IsMazakLathe()) return;
-  const std::string words = " " + WordsOf(input.files);
-  const bool series_t = input.target.series.Is(dialects::Series::kT);
-  for (const dialects::fanuc::MachineTest& test : dialects::fanuc::MachineTests()) {
-    if (series_t ? !test.series_t : !test.series_m) continue;
-    if (words.find(test.marker) == std::string::npos) continue;
-    ReportAssumption assumption;
-    assumption.text = fmt::format("{}. Answer: {}", test.question, test.result);
-    assumption.rule = fmt::format("mazak-lathe-11 {}, profile key {}", test.id, test.key);
-    assumption.test.emplace_back(test.first);
-    if (!test.second.empty()) assumption.test.emplace_back(test.second);
-    report.assumptions.push_back(std::move(assumption));
-  }
-}
-
 }  // namespace
 
 Report TranslateReport(const TranslateReportInput& input) {
@@ -119,7 +75,8 @@ Report TranslateReport(const TranslateReportInput& input) {
       report.sources.emplace_back(input.context.files.Name(program.file));
   }
   report.source_hash = fmt::format("{:016X}", HashOf(input.context.files, input.source.module));
-  report.required = Required(input);
+  const backends::MachineSheet sheet = backends::SheetOf(input.target, input.files);
+  report.required = Required(input, sheet);
   for (const backends::ProgramName& name : translation.programs)
     report.programs.push_back({name.source, name.target, name.main ? "main program" : "called"});
   AddCells(input, report);
@@ -154,7 +111,9 @@ Report TranslateReport(const TranslateReportInput& input) {
   for (const backends::Loss& loss : translation.losses)
     report.losses.push_back({loss.what, PlaceForReport(loss.at, input.context.files), {}});
   report.added = translation.added;
-  AddAssumptions(input, report);
+  for (const std::string& assumption : translation.assumptions) report.assumptions.push_back({assumption, "", {}});
+  for (const backends::MachineTest& test : sheet.tests)
+    report.assumptions.push_back({test.text, test.rule, test.blocks});
   return report;
 }
 

@@ -12,10 +12,6 @@
 namespace ncport::app {
 namespace {
 
-std::string TargetOf(const ir::transform::CellMapping& cell) {
-  return cell.target.empty() ? fmt::format("#{}", cell.first) : cell.target;
-}
-
 std::string FileNameOf(std::string_view path) {
   const std::size_t slash = path.rfind('/');
   return std::string(slash == std::string_view::npos ? path : path.substr(slash + 1));
@@ -78,9 +74,7 @@ std::vector<backends::ProgramHeader> HeadersOf(const Context& context, const Pro
       for (const backends::ProgramName& program : translation.programs)
         lines.push_back(fmt::format("PROGRAM {} = {}", program.source, program.target));
       for (const backends::AlarmUse& alarm : translation.alarms)
-        lines.push_back(target.language == dialects::Language::kSinumerik
-                            ? fmt::format("ALARM {} = SETAL({})", alarm.source, alarm.target)
-                            : fmt::format("ALARM {} = #3000={}", alarm.source, alarm.target));
+        lines.push_back(fmt::format("ALARM {} = {}", alarm.source, alarm.target_words));
       for (const backends::ToolUse& tool : translation.tools)
         lines.push_back(fmt::format("TOOL {} = {}", tool.source_words, tool.target_words));
       for (const backends::OffsetUse& offset : translation.offsets) {
@@ -88,7 +82,7 @@ std::vector<backends::ProgramHeader> HeadersOf(const Context& context, const Pro
                                     offset.target_extension == 0 ? "" : fmt::format(" P{}", offset.target_extension)));
       }
       for (const ir::transform::CellMapping& cell : translation.cells) {
-        if (cell.common) lines.push_back(fmt::format("{} = {}", TargetOf(cell), cell.source));
+        if (cell.common) lines.push_back(fmt::format("{} = {}", cell.target, cell.source));
       }
       if (translation.stopped_blocks != 0)
         lines.push_back(
@@ -109,10 +103,10 @@ std::vector<backends::ProgramHeader> HeadersOf(const Context& context, const Pro
     for (const ir::transform::CellMapping& cell : translation.cells) {
       if (cell.program != name.program || cell.common) continue;
       if (cell.letter != 0) {
-        lines.push_back(fmt::format("{} = {} = {}{}", cell.letter, TargetOf(cell), cell.source,
+        lines.push_back(fmt::format("{} = {} = {}{}", cell.letter, cell.target, cell.source,
                                     RangeOfInput(inputs, name.source, cell.source)));
       } else {
-        lines.push_back(fmt::format("{} = {}", TargetOf(cell), cell.source));
+        lines.push_back(fmt::format("{} = {}", cell.target, cell.source));
       }
     }
     first = false;

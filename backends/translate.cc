@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "backends/fanuc/argument_letter.h"
+#include "backends/fanuc/machine_sheet.h"
 #include "backends/fanuc/raise.h"
 #include "backends/fanuc/write.h"
 #include "backends/sinumerik/raise.h"
@@ -38,6 +39,10 @@ bool Raise(const TranslateInput& input, Translation& translation, diag::Sink& si
   // A pass that refused may have left its work half done.
   if (done) ir::Verify(translation.module, "after raising", {.names_resolved = true, .structure_built = true});
   return done;
+}
+
+MachineSheet SheetOf(const dialects::Profile& to, const std::vector<OutputFile>& files) {
+  return to.language == dialects::Language::kFanuc ? fanuc::SheetOf(to, files) : MachineSheet{};
 }
 
 dialects::Profile ForReading(const dialects::Profile& to) {

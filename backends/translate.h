@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "backends/common/machine_sheet.h"
 #include "backends/common/translation.h"
 #include "base/diag/sink.h"
 #include "dialects/config.h"
@@ -42,6 +43,8 @@ std::vector<ir::Word> StopWords(const dialects::Profile& to, ir::Module& module)
 
 /// Rewrites the module for the target. Fails after findings: each place that has no form is one.
 bool Raise(const TranslateInput& input, Translation& translation, diag::Sink& sink);
+/// For the sheet that goes to the machine with `files`.
+MachineSheet SheetOf(const dialects::Profile& to, const std::vector<OutputFile>& files);
 /// The profile under which the output is read back. Settings that it leaves open and that the output serves whichever
 /// way they are have one of their answers.
 dialects::Profile ForReading(const dialects::Profile& to);

@@ -4,6 +4,11 @@
 
 namespace ncport::dialects {
 
+ToolAddressing Profile::Tools() const {
+  if (language == Language::kSinumerik || language == Language::kNum) return ToolAddressing::kEdges;
+  return IsLathe() ? ToolAddressing::kTurret : ToolAddressing::kRegisters;
+}
+
 std::uint32_t Profile::OffsetDigits() const {
   const std::size_t width = words.tool.Known() ? WidthOf(*words.tool, "offset") : 0;
   return width == 0 ? 2 : static_cast<std::uint32_t>(width);

@@ -262,6 +262,10 @@ struct IsoSettings {
 };
 
 /// See the page docs/profiles.md for every key.
+/// How programs name the geometry of a tool: edges of the tool in the spindle (D1), registers of their own for length
+/// and radius (H5, D25), or the turret's offset in the tool word (T0101).
+enum class ToolAddressing : std::uint8_t { kEdges, kRegisters, kTurret };
+
 struct Profile {
   std::string name;  // of a built-in profile, else the path as given
   Language language = Language::kIso;
@@ -294,6 +298,7 @@ struct Profile {
   NumSettings num;
   IsoSettings iso;
 
+  [[nodiscard]] ToolAddressing Tools() const;
   /// Digits of the offset in the T word of a turret: T0101 has two unless the key `tool` says otherwise.
   [[nodiscard]] std::uint32_t OffsetDigits() const;
   [[nodiscard]] bool IsLathe() const { return machine == MachineKind::kLathe; }

@@ -29,6 +29,7 @@ struct OffsetUse {
 /// Number of a user alarm.
 struct AlarmUse {
   std::uint32_t source = 0, target = 0;
+  std::string target_words;  // "#3000=5", "SETAL(65005)"
 };
 struct AuxUse {
   std::uint32_t source = 0;

@@ -271,7 +271,7 @@ bool MapAlarms(const RaiseInput& input, Translation& out, diag::Sink& sink) {
           while (taken.contains(target)) target = target == profile.fanuc.alarms->last ? least : target + 1;
           taken.insert(target);
           numbers[number] = target;
-          out.alarms.push_back({number, target});
+          out.alarms.push_back({number, target, fmt::format("#3000={}", target)});
         }
         std::string text;
         AppendMessage(module, word.Extra<ExprId>(), text);

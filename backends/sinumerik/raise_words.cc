@@ -140,7 +140,8 @@ bool ArrangeTexts(const RaiseInput& input, Translation& out, diag::Sink& sink) {
                           number ? "an alarm number above 999" : "a computed alarm number", input.profile->name);
               break;
             }
-            const AlarmUse use{*number, kFirstAlarm + *number};
+            AlarmUse use{*number, kFirstAlarm + *number, {}};
+            use.target_words = fmt::format("SETAL({})", use.target);
             const auto known = std::find_if(out.alarms.begin(), out.alarms.end(),
                                             [&](const AlarmUse& other) { return other.source == use.source; });
             if (known == out.alarms.end()) out.alarms.push_back(use);

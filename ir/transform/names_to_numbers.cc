@@ -50,6 +50,7 @@ class Allocation {
   void KeepLocals();
   void PlaceSpaces();
   void PlaceProgram(ProgramId program);
+  void Map(CellMapping mapping);
   bool PlaceParameter(ProgramId program, VariableId id, std::size_t& next_letter, bool& feed_taken);
   void PlaceLocal(ProgramId program, VariableId id);
   bool TakeLocal(ProgramId program, std::uint32_t count, std::uint32_t& cell);
@@ -208,7 +209,7 @@ void Allocation::PlaceSpaces() {
     mapping.outlives = source.lifetime == Lifetime::kKept;
     mapping.source_space = SpaceId{space};
     mapping.source_cell = source.first;
-    result_.map.push_back(mapping);
+    Map(mapping);
   }
   for (const auto& [space, cells] : used_cells_) {
     if (SpaceId{space} == space_ || offsets_.contains(space)) continue;
@@ -240,9 +241,14 @@ void Allocation::PlaceSpaces() {
       mapping.outlives = source.lifetime == Lifetime::kKept;
       mapping.source_space = SpaceId{space};
       mapping.source_cell = number;
-      result_.map.push_back(mapping);
+      Map(mapping);
     }
   }
+}
+
+void Allocation::Map(CellMapping mapping) {
+  mapping.target = fmt::format("{}{}", config_.space, mapping.first);
+  result_.map.push_back(std::move(mapping));
 }
 
 bool Allocation::PlaceParameter(ProgramId program, VariableId id, std::size_t& next_letter, bool& feed_taken) {
@@ -286,7 +292,7 @@ bool Allocation::PlaceParameter(ProgramId program, VariableId id, std::size_t& n
     mapping.first = letter.cell;
     homes_[id.value] = {letter.cell, false};
   }
-  result_.map.push_back(mapping);
+  Map(mapping);
   return true;
 }
 
@@ -318,7 +324,7 @@ void Allocation::PlaceLocal(ProgramId program, VariableId id) {
   }
   homes_[id.value] = {mapping.first, mapping.common};
   if (mapping.count > 1) mapping.source += fmt::format("[0] to [{}]", mapping.count - 1);
-  result_.map.push_back(mapping);
+  Map(mapping);
 }
 
 void Allocation::PlaceProgram(ProgramId program) {

@@ -29,7 +29,7 @@ struct ArgumentLetter {
 struct CellMapping {
   ProgramId program;        // owner; invalid = common
   std::string source;       // "EXTD", "R10", "VEC[0] to VEC[4]"
-  std::string target;       // name in a target that has names ("U_A", "R10"); empty: "#" and the cell
+  std::string target;       // "#101", or a name ("U_A", "R10")
   VariableId variable;      // named variables
   std::uint32_t first = 0;  // cell
   std::uint32_t count = 1;

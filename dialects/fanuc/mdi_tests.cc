@@ -1,10 +1,10 @@
-#include "dialects/fanuc/machine_tests.h"
+#include "dialects/fanuc/mdi_tests.h"
 
 namespace ncport::dialects::fanuc {
 
 namespace {
 
-constexpr MachineTest kTests[] = {
+constexpr MdiTest kTests[] = {
     {"GC1", "series", "the G-code series of the control", "G91", "",
      "alarm 808 or 1412: series T; accepted: series M (write G90 after it)", ""},
     {"GC2", "feed", "G98 is feed per minute, G99 feed per revolution", "G98", "G99",
@@ -59,6 +59,6 @@ constexpr MachineTest kTests[] = {
 
 }  // namespace
 
-std::span<const MachineTest> MachineTests() { return kTests; }
+std::span<const MdiTest> MdiTests() { return kTests; }
 
 }  // namespace ncport::dialects::fanuc

@@ -10,7 +10,7 @@
 
 namespace ncport::dialects::fanuc {
 
-struct MachineTest {
+struct MdiTest {
   std::string_view id;             // "SP1"
   std::string_view key;            // of the profile: "spindle.cw"
   std::string_view question;       // what is assumed
@@ -21,6 +21,6 @@ struct MachineTest {
 };
 
 /// In the order of the card. All of MAZAK turning machines.
-std::span<const MachineTest> MachineTests();
+std::span<const MdiTest> MdiTests();
 
 }  // namespace ncport::dialects::fanuc

@@ -1,13 +1,10 @@
 #include "backends/fanuc/turning_offsets.h"
 
 #include <algorithm>
-#include <map>
 #include <string_view>
 #include <vector>
 
-#include "ir/analysis/call_graph.h"
-#include "ir/analysis/cfg.h"
-#include "ir/analysis/modal_state.h"
+#include "ir/analysis/forward_flow.h"
 #include "ir/builder.h"
 #include "ir/transform/program_editor.h"
 
@@ -27,15 +24,26 @@ using ir::transform::ProgramEditor;
 constexpr std::uint8_t kZ = 2;
 
 /// Whether the offset of the tool is named on arrival at a block: one answer for every way, or kMixed.
-enum class Offset : std::uint8_t { kNever /* no way leads here */, kOpen, kNamed, kMixed };
-
-Offset Join(Offset a, Offset b) {
-  if (a == Offset::kNever || a == b) return b;
-  return b == Offset::kNever ? a : Offset::kMixed;
-}
+enum class Offset : std::uint8_t { kOpen, kNamed, kMixed };
 
 class Pass {
  public:
+  // The data flow.
+  using State = Offset;
+  /// A program without a tool call works with the offset that is in force: it has nothing to name.
+  [[nodiscard]] State Entry(ProgramId) const { return Offset::kNamed; }
+  [[nodiscard]] State Unknown(ProgramId) const { return Offset::kMixed; }
+  bool Join(BlockId, State& into, State from) const {
+    const State before = into;
+    if (into != from) into = Offset::kMixed;
+    return into != before;
+  }
+  void Transfer(ProgramId, BlockId block, State& state) const {
+    const Words words = Look(module_.blocks[block]);
+    if (words.tool) state = Offset::kOpen;
+    if (words.moves_z) state = Offset::kNamed;
+  }
+
   Pass(const RaiseInput& input, Translation& out, diag::Sink& sink)
       : input_(input),
         out_(out),
@@ -45,10 +53,11 @@ class Pass {
         calls_(out.module),
         flow_(out.module, *input.source_machine, graphs_, calls_,
               {input.source_machine->start, input.config != nullptr ? input.config->entry : ir::ModalState{}}),
+        offsets_({module_, *input.source_machine, graphs_, calls_, flow_}, *this),
         has_y_(std::find(input.profile->axes.begin(), input.profile->axes.end(), "Y") != input.profile->axes.end()) {}
 
   bool Run() {
-    Flow();
+    offsets_.Run();
     for (const ProgramId program : module_.programs.Ids()) Rewrite(program);
     return ok_;
   }
@@ -56,11 +65,8 @@ class Pass {
  private:
   struct Words {
     bool tool = false, moves = false, moves_z = false, conditional = false;
-    std::vector<ProgramId> callees;
   };
   [[nodiscard]] Words Look(const Block& block) const;
-  [[nodiscard]] Offset Through(const Words& words, Offset before) const;
-  void Flow();
   void Rewrite(ProgramId program);
   void Refuse(const Block& block, std::string_view what, std::string_view help) {
     ok_ = false;
@@ -81,9 +87,8 @@ class Pass {
   ir::analysis::FlowGraphs graphs_;
   ir::analysis::CallGraph calls_;
   ir::analysis::ModalFlow flow_;
+  ir::analysis::ForwardFlow<Pass> offsets_;
   bool has_y_ = false;
-  std::map<BlockId, Offset> before_;
-  std::vector<Offset> entry_, exit_;
   bool ok_ = true;
 };
 
@@ -115,12 +120,6 @@ Pass::Words Pass::Look(const Block& block) const {
       case WordOp::kMachineCoords:
         elsewhere = true;
         break;
-      case WordOp::kCall:
-      case WordOp::kModalCall: {
-        const auto call = word.Extra<ir::CallId>();
-        if (call.Valid() && module_.calls[call].program.Valid()) words.callees.push_back(module_.calls[call].program);
-        break;
-      }
       default:
         break;
     }
@@ -129,74 +128,15 @@ Pass::Words Pass::Look(const Block& block) const {
   return words;
 }
 
-Offset Pass::Through(const Words& words, Offset before) const {
-  Offset state = before;
-  if (words.tool) state = Offset::kOpen;
-  if (words.moves_z) state = Offset::kNamed;
-  for (const ProgramId callee : words.callees) state = exit_[callee.value];
-  return words.conditional ? Join(before, state) : state;
-}
-
-void Pass::Flow() {
-  entry_.assign(module_.programs.Size(), Offset::kNever);
-  exit_.assign(module_.programs.Size(), Offset::kNever);
-  std::vector<bool> called(module_.programs.Size(), false);
-  for (const ir::analysis::CallSite& site : calls_.AllSites()) {
-    if (site.callee.Valid()) called[site.callee.value] = true;
-  }
-  // A program without a tool call works with the offset that is in force: it has nothing to name.
-  for (const ProgramId program : module_.programs.Ids()) {
-    if (!called[program.value] || module_.programs[program].kind == ir::ProgramKind::kMain)
-      entry_[program.value] = Offset::kNamed;
-  }
-  // Each state only climbs never -> one -> mixed, so this ends.
-  for (bool changed = true; changed;) {
-    changed = false;
-    const auto merge = [&](Offset& into, Offset from) {
-      const Offset joined = Join(into, from);
-      if (joined == into) return;
-      into = joined;
-      changed = true;
-    };
-    for (const ProgramId program : module_.programs.Ids()) {
-      const IdRange<BlockId> blocks = module_.programs[program].blocks;
-      if (blocks.Empty()) {
-        merge(exit_[program.value], entry_[program.value]);
-        continue;
-      }
-      const ir::analysis::Cfg& graph = graphs_.Of(program);
-      merge(before_[blocks[0]], entry_[program.value]);
-      for (const BlockId id : blocks) {
-        const Offset before = before_[id];
-        if (before == Offset::kNever) continue;
-        const Words words = Look(module_.blocks[id]);
-        for (const ProgramId callee : words.callees) merge(entry_[callee.value], words.tool ? Offset::kOpen : before);
-        const Offset after = Through(words, before);
-        if (after == Offset::kNever) continue;  // the callee has not come to its end yet
-        for (const ir::analysis::Edge& edge : graph.Successors(id)) {
-          if (edge.to.Valid()) {
-            merge(before_[edge.to], after);
-          } else if (edge.kind == ir::analysis::EdgeKind::kComputed) {
-            for (const BlockId target : graph.ComputedTargets()) merge(before_[target], after);
-          } else if (edge.kind != ir::analysis::EdgeKind::kAlarm && edge.kind != ir::analysis::EdgeKind::kMissing) {
-            merge(exit_[program.value], after);
-          }
-        }
-      }
-    }
-  }
-}
-
 void Pass::Rewrite(ProgramId program) {
   ProgramEditor editor(module_, program, "turning_offsets");
   for (const BlockId id : module_.programs[program].blocks) {
     const Block block = module_.blocks[id];
     const Words words = Look(block);
-    const auto arrival = before_.find(id);
-    const Offset before = arrival == before_.end() ? Offset::kNever : arrival->second;
-    if (!words.moves || before == Offset::kNever || before == Offset::kNamed) continue;
+    const Offset* arrival = offsets_.Before(id);  // none: no way leads here
+    if (!words.moves || arrival == nullptr || *arrival == Offset::kNamed) continue;
     const bool rapid = flow_.At(program, id).motion == ir::Motion::kRapid;
-    if (before == Offset::kMixed) {
+    if (*arrival == Offset::kMixed) {
       if (words.moves_z)
         Refuse(block, "a move of Z that a tool change may lie before, or not: its offset would be named on every way",
                "move Z at rapid behind each tool change before the ways meet");
@@ -219,6 +159,11 @@ void Pass::Rewrite(ProgramId program) {
       const bool z = word.op == WordOp::kAxis && word.index == kZ;
       other_axis = other_axis || (word.op == WordOp::kAxis && !z);
       (z ? second : first).push_back(word);
+    }
+    if (other_axis && flow_.ModalCallPossible(program, id)) {
+      Refuse(block, "a first move behind a tool change under a modal call, which would run behind each of its parts",
+             "move to the work in front of the modal call");
+      continue;
     }
     second.insert(second.begin(), Text("G43 P1"));
     second.push_back(Text("H#3020"));

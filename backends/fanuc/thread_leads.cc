@@ -1,11 +1,8 @@
 #include "backends/fanuc/thread_leads.h"
 
 #include <map>
-#include <vector>
 
-#include "ir/analysis/call_graph.h"
-#include "ir/analysis/cfg.h"
-#include "ir/analysis/modal_state.h"
+#include "ir/analysis/forward_flow.h"
 
 namespace ncport::backends::fanuc {
 
@@ -20,15 +17,27 @@ using ir::WordOp;
 
 /// What a block means for the feed in force.
 struct Use {
-  bool thread = false;   // its lead replaces the feed
-  bool feed = false;     // names a feed
-  bool relies = false;   // a feed move without a feed word
-  bool skipped = false;  // may be left out
-  std::vector<ProgramId> callees;
+  bool thread = false;  // its lead replaces the feed
+  bool feed = false;    // names a feed
+  bool relies = false;  // a feed move without a feed word
 };
 
 class Leads {
  public:
+  // The data flow: is there a way here on which a thread took the feed?
+  using State = bool;
+  [[nodiscard]] State Entry(ProgramId) const { return false; }
+  [[nodiscard]] State Unknown(ProgramId) const { return true; }
+  bool Join(BlockId, State& into, State from) const {
+    const bool before = into;
+    into = into || from;
+    return into != before;
+  }
+  void Transfer(ProgramId, BlockId block, State& lost) const {
+    const Use& use = uses_.at(block);
+    lost = use.thread || (lost && !use.feed);
+  }
+
   Leads(const RaiseInput& input, Module& module, diag::Sink& sink)
       : input_(input),
         module_(module),
@@ -42,7 +51,6 @@ class Leads {
 
  private:
   [[nodiscard]] Use UseOf(ProgramId program, BlockId block) const;
-  void Follow();
 
   const RaiseInput& input_;
   Module& module_;
@@ -51,26 +59,18 @@ class Leads {
   ir::analysis::CallGraph calls_;
   ir::analysis::ModalFlow flow_;
   std::map<BlockId, Use> uses_;
-  std::map<BlockId, bool> lost_;    // on some way here a thread took the feed
-  std::vector<bool> entry_, exit_;  // the same, by program
 };
 
 Use Leads::UseOf(ProgramId program, BlockId id) const {
   const ir::Block& block = module_.blocks[id];
   const ir::Motion motion = flow_.At(program, id).motion;
   Use use;
-  use.skipped = block.skip_level != ir::Block::kNoSkip;
   bool lead = false, moves = false, elsewhere = false;
   for (const WordId word_id : block.words) {
     const Word& word = module_.words[word_id];
     lead = lead || word.op == WordOp::kCenter;
     use.feed = use.feed || word.op == WordOp::kFeed;
     moves = moves || word.op == WordOp::kAxis || word.op == WordOp::kCenter || word.op == WordOp::kRadius;
-    if ((word.op == WordOp::kCall || word.op == WordOp::kModalCall) && word.Extra<ir::CallId>().Valid()) {
-      const ProgramId callee = module_.calls[word.Extra<ir::CallId>()].program;
-      if (callee.Valid()) use.callees.push_back(callee);
-    }
-    if (word.op == WordOp::kWhen) use.skipped = true;
     elsewhere = elsewhere || word.op == WordOp::kFrame || word.op == WordOp::kReference ||
                 word.op == WordOp::kPresetPosition || word.op == WordOp::kMachineCoords;
   }
@@ -80,56 +80,19 @@ Use Leads::UseOf(ProgramId program, BlockId id) const {
   return use;
 }
 
-void Leads::Follow() {
-  entry_.assign(module_.programs.Size(), false);
-  exit_.assign(module_.programs.Size(), false);
-  // Only more ways lose the feed from round to round, so this ends.
-  for (bool changed = true; changed;) {
-    changed = false;
-    const auto lose = [&](auto&& place) {
-      if (place) return;
-      place = true;
-      changed = true;
-    };
-    for (const ProgramId program : module_.programs.Ids()) {
-      const IdRange<BlockId> blocks = module_.programs[program].blocks;
-      if (blocks.Empty()) continue;
-      if (entry_[program.value]) lose(lost_[blocks[0]]);
-      const ir::analysis::Cfg& graph = graphs_.Of(program);
-      for (const BlockId id : blocks) {
-        const Use& use = uses_[id];
-        const bool before = lost_[id];
-        bool after = use.thread || (before && (!use.feed || use.skipped));
-        for (const ProgramId callee : use.callees) {
-          if (after) lose(entry_[callee.value]);
-          after = after || exit_[callee.value];
-        }
-        if (!after) continue;
-        for (const ir::analysis::Edge& edge : graph.Successors(id)) {
-          if (edge.to.Valid()) {
-            lose(lost_[edge.to]);
-          } else if (edge.kind == ir::analysis::EdgeKind::kComputed) {
-            for (const BlockId target : graph.ComputedTargets()) lose(lost_[target]);
-          } else {
-            lose(exit_[program.value]);
-          }
-        }
-      }
-    }
-  }
-}
-
 bool Leads::Run() {
   bool any = false;
   for (const ProgramId program : module_.programs.Ids()) {
     for (const BlockId id : module_.programs[program].blocks) any = (uses_[id] = UseOf(program, id)).thread || any;
   }
   if (!any) return true;
-  Follow();
+  ir::analysis::ForwardFlow<Leads> flow({module_, *input_.source_machine, graphs_, calls_, flow_}, *this);
+  flow.Run();
   bool ok = true;
   for (const auto& [id, use] : uses_) {
     const ir::Block& block = module_.blocks[id];
-    if (use.relies && lost_[id]) {
+    const bool* lost = flow.Before(id);
+    if (use.relies && lost != nullptr && *lost) {
       ok = false;
       sink_
           .Report(diag::Code::kNotExpressible, module_.RangeOf(block), "a feed that was written before a thread",

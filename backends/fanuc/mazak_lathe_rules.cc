@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ir/analysis/cfg.h"
+#include "ir/analysis/forward_flow.h"
 
 namespace ncport::backends::fanuc {
 
@@ -55,83 +55,43 @@ std::vector<std::string_view> Split(std::string_view text) {
 }
 
 /// Is a speed limit set on every way to a block? (row 3)
-class LimitFlow {
- public:
-  explicit LimitFlow(const Module& module)
-      : module_(module),
-        graphs_(module),
-        entry_(module.programs.Size(), true),
-        exit_(module.programs.Size(), true),
-        before_(module.blocks.Size(), true) {
-    // A program that is called from elsewhere relies on its caller; a main program starts without a limit.
-    for (const ProgramId program : module.programs.Ids())
-      entry_[program.value] = module.programs[program].kind != ir::ProgramKind::kMain;
-    // Each answer only falls from yes to no, so this ends.
-    for (bool changed = true; changed;) {
-      changed = false;
-      for (const ProgramId program : module.programs.Ids()) changed = Walk(program) || changed;
-    }
-  }
-  [[nodiscard]] bool Before(BlockId block) const { return before_[block.value]; }
+struct SpeedLimits {
+  using State = bool;
 
- private:
-  bool Walk(ProgramId program) {
-    bool changed = false;
-    const auto fall = [&](std::vector<bool>::reference held, bool value) {
-      if (!held || value) return;
-      held = false;
-      changed = true;
-    };
-    const IdRange<BlockId> blocks = module_.programs[program].blocks;
-    if (blocks.Empty()) {
-      fall(exit_[program.value], entry_[program.value]);
-      return changed;
-    }
-    fall(before_[blocks[0].value], entry_[program.value]);
-    const ir::analysis::Cfg& graph = graphs_.Of(program);
-    for (const BlockId id : blocks) {
-      bool set = before_[id.value];
-      for (const WordId word_id : module_.blocks[id].words) {
-        const Word& word = module_.words[word_id];
-        if (word.op == WordOp::kSpeedLimit && module_.blocks[id].skip_level == Block::kNoSkip) set = true;
-        if (word.op != WordOp::kCall || !word.Extra<ir::CallId>().Valid()) continue;
-        const ProgramId callee = module_.calls[word.Extra<ir::CallId>()].program;
-        if (!callee.Valid()) continue;
-        fall(entry_[callee.value], set);
-        set = set || exit_[callee.value];
-      }
-      for (const ir::analysis::Edge& edge : graph.Successors(id)) {
-        if (edge.to.Valid()) {
-          fall(before_[edge.to.value], set);
-        } else if (edge.kind == ir::analysis::EdgeKind::kComputed) {
-          for (const BlockId target : graph.ComputedTargets()) fall(before_[target.value], set);
-        } else {
-          fall(exit_[program.value], set);
-        }
-      }
-    }
-    return changed;
-  }
+  const Module& module;
 
-  const Module& module_;
-  ir::analysis::FlowGraphs graphs_;
-  std::vector<bool> entry_, exit_;  // per program
-  std::vector<bool> before_;        // per block
+  /// A program that is called from elsewhere relies on its caller; a main program starts without a limit.
+  [[nodiscard]] State Entry(ProgramId program) const { return module.programs[program].kind != ir::ProgramKind::kMain; }
+  [[nodiscard]] State Unknown(ProgramId) const { return false; }
+  bool Join(BlockId, State& into, State from) const {
+    const bool before = into;
+    into = into && from;
+    return into != before;
+  }
+  void Transfer(ProgramId, BlockId block, State& set) const {
+    for (const WordId id : module.blocks[block].words) set = set || module.words[id].op == WordOp::kSpeedLimit;
+  }
+  /// Nothing takes a limit away.
+  [[nodiscard]] State Back(const ir::analysis::CallSite&, State at, State exit) const { return at || exit; }
 };
 
 class Check {
  public:
   Check(const RaiseInput& input, const Translation& out, diag::Sink& sink)
-      : profile_(*input.profile), out_(out), module_(out.module), sink_(sink) {}
+      : profile_(*input.profile), machine_(*input.source_machine), out_(out), module_(out.module), sink_(sink) {}
 
   bool Run() {
-    const LimitFlow limits(module_);
+    const ir::analysis::FlowAnalyses analyses(module_, machine_, {});
+    SpeedLimits client{module_};
+    ir::analysis::ForwardFlow<SpeedLimits> limits(analyses.Sources(), client);
+    limits.Run();
     for (const ProgramId program : module_.programs.Ids()) {
       const bool main = module_.programs[program].kind == ir::ProgramKind::kMain;
       bool ends = false;
       for (const BlockId id : module_.programs[program].blocks) {
         const Block& block = module_.blocks[id];
-        bool limit = limits.Before(id);
+        const bool* arrival = limits.Before(id);
+        bool limit = arrival == nullptr || *arrival;
         for (const WordId word_id : block.words) {
           const Word& word = module_.words[word_id];
           switch (word.op) {
@@ -235,6 +195,7 @@ class Check {
   }
 
   const dialects::Profile& profile_;
+  const ir::Machine& machine_;
   const Translation& out_;
   const Module& module_;
   diag::Sink& sink_;

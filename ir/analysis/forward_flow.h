@@ -52,6 +52,26 @@ struct FlowSources {
   const ModalFlow& modal;
 };
 
+/// Them, for who has no other use for them.
+class FlowAnalyses {
+ public:
+  FlowAnalyses(const Module& module, const Machine& machine, const ModalOptions& options)
+      : module_(module),
+        machine_(machine),
+        graphs_(module),
+        calls_(module),
+        modal_(module, machine, graphs_, calls_, options) {}
+
+  [[nodiscard]] FlowSources Sources() const { return {module_, machine_, graphs_, calls_, modal_}; }
+
+ private:
+  const Module& module_;
+  const Machine& machine_;
+  FlowGraphs graphs_;
+  CallGraph calls_;
+  ModalFlow modal_;
+};
+
 /// When a call takes its state from the caller.
 enum class CallMoment : std::uint8_t {
   kCall,

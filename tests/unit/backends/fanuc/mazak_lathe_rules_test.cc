@@ -72,6 +72,16 @@ TEST_CASE("row 3: constant surface speed needs a limit on every way") {
   CHECK(Findings(kMain + kHead + "  @m:1 : call name L1 calls L1\n" + css + kEnd +
                  "program L1 sub @m:20 header\n  @m:21 : speed-limit = 3000\n  @m:22 : return plain\n")
             .empty());
+  // A modal call runs behind moves: with the limit of there.
+  const std::string sub =
+      "program L1 sub @m:20 header\n  @m:21 : speed-mode constant-surface; speed = 200\n  @m:22 : return plain\n";
+  const std::string modal = kMain + kHead + "  @m:1 : modal-call name L1 calls L1\n";
+  CHECK(Findings(modal + "  @m:2 : axis X = 1\n  @m:3 : speed-limit = 3000\n" + kEnd + sub) ==
+        "constant surface speed without a speed limit before it has no equivalent in mazak-qtn\n");
+  CHECK(Findings(modal + "  @m:2 : speed-limit = 3000\n  @m:3 : axis X = 1\n" + kEnd + sub).empty());
+  // A limit behind a condition may not be set.
+  CHECK(Findings(kMain + kHead + "  @m:1 : when = 1; speed-limit = 3000\n" + css + kEnd) ==
+        "constant surface speed without a speed limit before it has no equivalent in mazak-qtn\n");
 }
 
 TEST_CASE("row 6: U, V and W of an INTEGREX are axes") {

@@ -14,10 +14,8 @@ std::string AtHere(const std::string& text) {
   const Result<ir::Module> module = ir::ParseDump("ncport-ir 1\nfile m\n" + text, sink);
   REQUIRE(module.Ok());
   const ir::Machine machine;
-  const ir::analysis::FlowGraphs graphs(*module);
-  const ir::analysis::CallGraph calls(*module);
-  const ir::analysis::ModalFlow modal(*module, machine, graphs, calls, {});
-  const ToolFlow flow({*module, machine, graphs, calls, modal});
+  const ir::analysis::FlowAnalyses analyses(*module, machine, {});
+  const ToolFlow flow(analyses.Sources());
   for (const ir::BlockId id : module->blocks.Ids()) {
     if (module->View(module->blocks[id].label) == "HERE") return std::string(flow.Before(id));
   }

@@ -62,11 +62,9 @@ Lines Flow(const std::string& text, const Machine& machine = {}) {
   for (const auto& finding : sink.All()) FAIL_CHECK(finding.at.line << ": " << finding.message);
   REQUIRE(parsed.Ok());
   const Module& module = *parsed;
-  const FlowGraphs graphs(module);
-  const CallGraph calls(module);
-  const ModalFlow modal(module, machine, graphs, calls, {machine.start, {}});
+  const FlowAnalyses analyses(module, machine, {machine.start, {}});
   Client client{{module}};
-  ForwardFlow<Client> flow({module, machine, graphs, calls, modal}, client);
+  ForwardFlow<Client> flow(analyses.Sources(), client);
   flow.Run();
   Lines lines;
   for (const ProgramId program : module.programs.Ids()) {

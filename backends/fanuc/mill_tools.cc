@@ -7,14 +7,11 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "ir/analysis/call_graph.h"
-#include "ir/analysis/cfg.h"
-#include "ir/analysis/modal_state.h"
+#include "ir/analysis/forward_flow.h"
 #include "ir/builder.h"
 #include "ir/transform/program_editor.h"
 
@@ -37,26 +34,18 @@ constexpr std::uint8_t kZ = 2;
 
 /// What is selected on arrival at a block. Each part is one value on every way, or kMixed.
 struct Selection {
-  static constexpr int kNever = -2;  // no way leads here
   static constexpr int kMixed = -1;
   static constexpr int kNone = 0;  // nothing selected since the program started
   static constexpr int kYes = 1, kNo = 2;
 
-  int tool = kNever;      // 1 + index of the tool's words
-  int prepared = kNever;  // by a T word that waits for its M6
-  int edge = kNever;      // 1 + number
-  int told = kNever;      // kYes: the length register of the target is the right one; kNo: the next Z word names it
+  int tool = kMixed;      // 1 + index of the tool's words
+  int prepared = kMixed;  // by a T word that waits for its M6
+  int edge = kMixed;      // 1 + number
+  int told = kMixed;      // kYes: the length register of the target is the right one; kNo: the next Z word names it
   bool operator==(const Selection&) const = default;
 };
 
-int Join(int a, int b) {
-  if (a == Selection::kNever) return b;
-  if (b == Selection::kNever || a == b) return a;
-  return Selection::kMixed;
-}
-Selection Join(const Selection& a, const Selection& b) {
-  return {Join(a.tool, b.tool), Join(a.prepared, b.prepared), Join(a.edge, b.edge), Join(a.told, b.told)};
-}
+int JoinPart(int a, int b) { return a == b ? a : Selection::kMixed; }
 
 /// The words of a [tools] line.
 struct TargetWords {
@@ -110,6 +99,16 @@ std::optional<std::uint32_t> WholeNumber(const Module& module, ExprId id) {
 
 class Mapper {
  public:
+  // The data flow.
+  using State = Selection;
+  [[nodiscard]] State Entry(ProgramId) const {
+    return {Selection::kNone, Selection::kNone, Selection::kNone, Selection::kYes};
+  }
+  [[nodiscard]] State Unknown(ProgramId) const { return {}; }
+  bool Join(BlockId, State& into, const State& from) const;
+  void Transfer(ProgramId, BlockId block, State& state) const;
+  [[nodiscard]] State Back(const ir::analysis::CallSite& site, const State& at, const State& exit) const;
+
   Mapper(const RaiseInput& input, Translation& out, diag::Sink& sink)
       : input_(input),
         out_(out),
@@ -118,7 +117,8 @@ class Mapper {
         graphs_(out.module),
         calls_(out.module),
         flow_(out.module, *input.source_machine, graphs_, calls_,
-              {input.source_machine->start, input.config != nullptr ? input.config->entry : ir::ModalState{}}) {}
+              {input.source_machine->start, input.config != nullptr ? input.config->entry : ir::ModalState{}}),
+        selections_({module_, *input.source_machine, graphs_, calls_, flow_}, *this) {}
 
   bool Run();
 
@@ -131,15 +131,11 @@ class Mapper {
     bool moves_z = false;
     bool moves = false;
     const Word* compensation = nullptr;  // left or right
-    bool conditional = false;
-    std::vector<ProgramId> callees;
   };
   [[nodiscard]] Words Look(const Block& block) const;
 
   void NameTools();
   void FindEffects();
-  void Flow();
-  [[nodiscard]] Selection Through(const Words& words, const Selection& before) const;
   /// With the block's own tool words, before its motion.
   [[nodiscard]] Selection Select(const Words& words, Selection state) const;
   void Rewrite(ProgramId program);
@@ -170,9 +166,8 @@ class Mapper {
   std::vector<std::string> names_;  // "T1", `T="DRILL"`
   std::vector<std::pair<std::string, std::uint32_t>> source_tools_;
   std::map<std::string, std::optional<TargetWords>> targets_;  // by source words; none: reported
-  std::map<BlockId, Selection> before_;
-  std::vector<bool> selects_;  // per program: T, M6 or D in it or below
-  std::vector<Selection> entry_, exit_;
+  std::vector<bool> selects_;                                  // per program: T, M6 or D in it or below
+  ir::analysis::ForwardFlow<Mapper> selections_;
   // The machine's setting; and where no program has an M6: there a tool that only stood ready would never come in.
   bool tool_word_changes_ = false;
   bool ok_ = true;
@@ -180,7 +175,6 @@ class Mapper {
 
 Mapper::Words Mapper::Look(const Block& block) const {
   Words words;
-  words.conditional = block.skip_level != Block::kNoSkip;
   bool elsewhere = false;
   for (const WordId id : block.words) {
     const Word& word = module_.words[id];
@@ -206,10 +200,6 @@ Mapper::Words Mapper::Look(const Block& block) const {
             word.index == static_cast<std::uint8_t>(ir::CutterComp::kRight))
           words.compensation = &word;
         break;
-      case WordOp::kWhen:
-      case WordOp::kSkipRest:
-        words.conditional = true;
-        break;
       case WordOp::kFrame:
       case WordOp::kReference:
       case WordOp::kPole:
@@ -217,12 +207,6 @@ Mapper::Words Mapper::Look(const Block& block) const {
       case WordOp::kMachineCoords:
         elsewhere = true;
         break;
-      case WordOp::kCall:
-      case WordOp::kModalCall: {
-        const auto call = word.Extra<ir::CallId>();
-        if (call.Valid() && module_.calls[call].program.Valid()) words.callees.push_back(module_.calls[call].program);
-        break;
-      }
       default:
         break;
     }
@@ -281,19 +265,17 @@ void Mapper::NameTools() {
 
 void Mapper::FindEffects() {
   selects_.assign(module_.programs.Size(), false);
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (const ProgramId program : module_.programs.Ids()) {
-      bool selects = false;
-      for (const BlockId id : module_.programs[program].blocks) {
-        const Words words = Look(module_.blocks[id]);
-        selects = selects || words.tool != nullptr || words.edge != nullptr || words.change;
-        for (const ProgramId callee : words.callees) selects = selects || selects_[callee.value];
-      }
-      if (selects && !selects_[program.value]) {
+  for (const ProgramId program : module_.programs.Ids()) {
+    for (const BlockId id : module_.programs[program].blocks) {
+      const Words words = Look(module_.blocks[id]);
+      if (words.tool != nullptr || words.edge != nullptr || words.change) selects_[program.value] = true;
+    }
+  }
+  for (const ProgramId program : calls_.BottomUp()) {
+    for (const ir::analysis::CallSite& site : calls_.SitesOf(program)) {
+      // Programs that call each other in a circle count as selecting, and those that are not known.
+      if (!site.callee.Valid() || selects_[site.callee.value] || calls_.Recursive(site.callee))
         selects_[program.value] = true;
-        changed = true;
-      }
     }
   }
 }
@@ -319,81 +301,26 @@ Selection Mapper::Select(const Words& words, Selection state) const {
   return state;
 }
 
-Selection Mapper::Through(const Words& words, const Selection& before) const {
-  Selection state = Select(words, before);
-  if (words.moves_z) state.told = Selection::kYes;
-  for (const ProgramId callee : words.callees) {
-    const Selection& after = exit_[callee.value];
-    if (selects_[callee.value]) {
-      state = after;
-    } else if (state.told != Selection::kYes) {
-      state.told = after.told == Selection::kYes ? Selection::kYes : Join(state.told, after.told);
-    }
-  }
-  return words.conditional ? Join(before, state) : state;
+bool Mapper::Join(BlockId, State& into, const State& from) const {
+  const State before = into;
+  into = {JoinPart(into.tool, from.tool), JoinPart(into.prepared, from.prepared), JoinPart(into.edge, from.edge),
+          JoinPart(into.told, from.told)};
+  return into != before;
 }
 
-void Mapper::Flow() {
-  entry_.assign(module_.programs.Size(), {});
-  exit_.assign(module_.programs.Size(), {});
-  std::vector<bool> called(module_.programs.Size(), false);
-  for (const ir::analysis::CallSite& site : calls_.AllSites()) {
-    if (site.callee.Valid()) called[site.callee.value] = true;
-  }
-  const Selection start{Selection::kNone, Selection::kNone, Selection::kNone, Selection::kYes};
-  for (const ProgramId program : module_.programs.Ids()) {
-    if (!called[program.value] || module_.programs[program].kind == ir::ProgramKind::kMain)
-      entry_[program.value] = start;
-  }
-  // Each part of a selection only climbs none -> value -> mixed, so this ends.
-  for (bool changed = true; changed;) {
-    changed = false;
-    const auto merge = [&](Selection& into, const Selection& from) {
-      const Selection joined = Join(into, from);
-      if (joined == into) return;
-      into = joined;
-      changed = true;
-    };
-    for (const ProgramId program : module_.programs.Ids()) {
-      const IdRange<BlockId> blocks = module_.programs[program].blocks;
-      if (blocks.Empty()) {
-        merge(exit_[program.value], entry_[program.value]);
-        continue;
-      }
-      const ir::analysis::Cfg& graph = graphs_.Of(program);
-      merge(before_[blocks[0]], entry_[program.value]);
-      bool modal = false;
-      for (const BlockId id : blocks) {
-        const Selection before = before_[id];
-        if (before.told == Selection::kNever) continue;
-        const Words words = Look(module_.blocks[id]);
-        for (const ProgramId callee : words.callees) merge(entry_[callee.value], Select(words, before));
-        const Selection after = Through(words, before);
-        for (const WordId word : module_.blocks[id].words)
-          modal = modal || module_.words[word].op == WordOp::kModalCall;
-        for (const ir::analysis::Edge& edge : graph.Successors(id)) {
-          if (edge.to.Valid()) {
-            merge(before_[edge.to], after);
-          } else if (edge.kind == ir::analysis::EdgeKind::kComputed) {
-            for (const BlockId target : graph.ComputedTargets()) merge(before_[target], after);
-          } else if (edge.kind != ir::analysis::EdgeKind::kAlarm && edge.kind != ir::analysis::EdgeKind::kMissing) {
-            merge(exit_[program.value], after);
-          }
-        }
-      }
-      if (!modal) continue;
-      // A modal call runs behind any block of its program: its callee is entered with what is selected there.
-      for (const BlockId id : blocks) {
-        for (const WordId word : module_.blocks[id].words) {
-          const Word& call = module_.words[word];
-          if (call.op != WordOp::kModalCall || !call.Extra<ir::CallId>().Valid()) continue;
-          const ProgramId callee = module_.calls[call.Extra<ir::CallId>()].program;
-          if (!callee.Valid()) continue;
-          for (const BlockId other : blocks) merge(entry_[callee.value], before_[other]);
-        }
-      }
-    }
-  }
+void Mapper::Transfer(ProgramId, BlockId block, State& state) const {
+  const Words words = Look(module_.blocks[block]);
+  state = Select(words, state);
+  if (words.moves_z) state.told = Selection::kYes;
+}
+
+Selection Mapper::Back(const ir::analysis::CallSite& site, const State& at, const State& exit) const {
+  if (selects_[site.callee.value]) return exit;
+  // It leaves each caller its own tool, and may have moved Z.
+  State behind = at;
+  if (at.told != Selection::kYes)
+    behind.told = exit.told == Selection::kYes ? Selection::kYes : JoinPart(at.told, exit.told);
+  return behind;
 }
 
 const TargetWords* Mapper::Target(int tool, int edge, const SourceRange& at) {
@@ -445,10 +372,11 @@ void Mapper::Rewrite(ProgramId program) {
   for (const BlockId id : module_.programs[program].blocks) {
     const Block block = module_.blocks[id];
     const Words words = Look(block);
-    const auto arrival = before_.find(id);
-    Selection before = arrival == before_.end() ? Selection{} : arrival->second;
-    if (before.told == Selection::kNever)
-      before = {Selection::kMixed, Selection::kMixed, Selection::kMixed, Selection::kYes};
+    const Selection* arrival = selections_.Before(id);
+    // Where no way leads no register has to be named.
+    const Selection before = arrival != nullptr
+                                 ? *arrival
+                                 : Selection{Selection::kMixed, Selection::kMixed, Selection::kMixed, Selection::kYes};
     const Selection now = Select(words, before);
     if (words.tool != nullptr && words.edge != nullptr && !tool_word_changes_ && !words.change)
       Refuse(module_.RangeOf(block, *words.edge), "an edge named before the M6 that brings its tool in",
@@ -546,8 +474,8 @@ void Mapper::Rewrite(ProgramId program) {
     }
     // The source's length lies along the axis normal to the plane, the target's along Z.
     const ir::Plane plane = flow_.At(program, id).plane;
-    if (words.moves && now.tool != Selection::kNone && now.edge != 1 && now.told != Selection::kNever &&
-        arrival != before_.end() && (plane == ir::Plane::kZX || plane == ir::Plane::kYZ)) {
+    if (words.moves && now.tool != Selection::kNone && now.edge != 1 && arrival != nullptr &&
+        (plane == ir::Plane::kZX || plane == ir::Plane::kYZ)) {
       Refuse(module_.RangeOf(block), "a tool length along Y or X (a plane other than G17 with a tool)", "");
     }
 
@@ -584,7 +512,7 @@ void Mapper::Rewrite(ProgramId program) {
 bool Mapper::Run() {
   NameTools();
   FindEffects();
-  Flow();
+  selections_.Run();
   for (const ProgramId program : module_.programs.Ids()) Rewrite(program);
   return ok_;
 }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <deque>
 #include <map>
 #include <optional>
 #include <set>
@@ -14,9 +13,7 @@
 #include <tuple>
 #include <vector>
 
-#include "ir/analysis/call_graph.h"
-#include "ir/analysis/cfg.h"
-#include "ir/analysis/modal_state.h"
+#include "ir/analysis/forward_flow.h"
 #include "ir/builder.h"
 #include "ir/transform/program_editor.h"
 
@@ -40,33 +37,14 @@ constexpr std::uint8_t kZ = 2;
 constexpr std::uint32_t kOpen = 0xFFFFFFFEU;   // it is not
 constexpr std::uint32_t kStale = 0xFFFFFFFDU;  // of the tool before: nothing may rely on it
 
-struct State {
-  bool reached = false;
+/// What is selected on arrival at a block.
+struct Selection {
   std::uint32_t ready = kOpen;   // T word
   std::uint32_t tool = kOpen;    // in the spindle
   std::uint32_t length = kOpen;  // register in force, 0 = off
   std::uint32_t radius = kOpen;  // D word
-  bool operator==(const State&) const = default;
+  bool operator==(const Selection&) const = default;
 };
-
-bool Join(State& into, const State& from) {
-  if (!from.reached) return false;
-  const State before = into;
-  if (!into.reached) {
-    into = from;
-    return true;
-  }
-  const auto join = [](std::uint32_t& a, std::uint32_t b) { a = a == b ? a : kOpen; };
-  // What is stale on one way stays so.
-  const auto join_register = [](std::uint32_t& a, std::uint32_t b) {
-    if (a != b) a = a == kStale || b == kStale ? kStale : kOpen;
-  };
-  join(into.ready, from.ready);
-  join(into.tool, from.tool);
-  join_register(into.length, from.length);
-  join_register(into.radius, from.radius);
-  return into != before;
-}
 
 bool IsToolWord(WordOp op) {
   return op == WordOp::kTool || op == WordOp::kToolChange || op == WordOp::kToolOffset || op == WordOp::kLengthOffset ||
@@ -114,6 +92,34 @@ std::optional<TargetTool> ParseTarget(std::string_view words) {
 
 class Pass {
  public:
+  // The data flow.
+  using State = Selection;
+  [[nodiscard]] State Entry(ir::ProgramId program) const {
+    State start;
+    if (module_.programs[program].kind == ir::ProgramKind::kMain) start.length = start.radius = 0;
+    return start;
+  }
+  [[nodiscard]] State Unknown(ir::ProgramId) const { return {}; }
+  bool Join(BlockId, State& into, const State& from) const {
+    const State before = into;
+    const auto join = [](std::uint32_t& a, std::uint32_t b) { a = a == b ? a : kOpen; };
+    // What is stale on one way stays so.
+    const auto join_register = [](std::uint32_t& a, std::uint32_t b) {
+      if (a != b) a = a == kStale || b == kStale ? kStale : kOpen;
+    };
+    join(into.ready, from.ready);
+    join(into.tool, from.tool);
+    join_register(into.length, from.length);
+    join_register(into.radius, from.radius);
+    return into != before;
+  }
+  void Transfer(ir::ProgramId, BlockId block, State& state) const { Through(module_.blocks[block], state); }
+  /// A program without tool words leaves each caller its own selection.
+  [[nodiscard]] State Back(const ir::analysis::CallSite& site, const State& at, const State& exit) const {
+    const std::uint32_t callee = site.callee.value;
+    return with_tools_.contains(callee) || with_tools_below_.contains(callee) ? exit : at;
+  }
+
   Pass(const RaiseInput& input, Translation& out, diag::Sink& sink)
       : input_(input),
         out_(out),
@@ -123,7 +129,8 @@ class Pass {
         graphs_(out.module),
         calls_(out.module),
         flow_(out.module, *input.source_machine, graphs_, calls_,
-              {input.source_machine->start, input.config != nullptr ? input.config->entry : ir::ModalState{}}) {}
+              {input.source_machine->start, input.config != nullptr ? input.config->entry : ir::ModalState{}}),
+        selections_({module_, *input.source_machine, graphs_, calls_, flow_}, *this) {}
 
   bool Run() {
     for (const ir::ProgramId program : module_.programs.Ids()) {
@@ -132,7 +139,8 @@ class Pass {
     for (bool again = true; again;) {
       again = false;
       for (const auto& site : calls_.AllSites()) {
-        if (site.callee.Valid() && with_tools_.contains(site.callee.value))
+        // Who knows what a program that is not found selects?
+        if (!site.callee.Valid() || with_tools_.contains(site.callee.value))
           again = with_tools_below_.insert(site.caller.value).second || again;
         if (site.callee.Valid() && with_tools_below_.contains(site.callee.value))
           again = with_tools_below_.insert(site.caller.value).second || again;
@@ -142,6 +150,7 @@ class Pass {
       AssumeNoOffset();
       return true;
     }
+    selections_.Run();
     for (const ir::ProgramId program : module_.programs.Ids()) Map(program);
     return ok_;
   }
@@ -181,7 +190,6 @@ class Pass {
 
   void Through(const Block& block, State& state) const {
     const bool lathe = input_.source_profile->IsLathe();
-    const State before = state;
     bool change = false, length = false, radius = false;
     for (const WordId id : block.words) {
       const Word& word = module_.words[id];
@@ -208,12 +216,6 @@ class Pass {
           state.radius = number.value_or(kOpen);
           radius = true;
           break;
-        case WordOp::kCall: {
-          const ir::ProgramId callee = module_.calls[word.Extra<ir::CallId>()].program;
-          if (callee.Valid() && !with_tools_.contains(callee.value) && !with_tools_below_.contains(callee.value)) break;
-          state.ready = state.tool = state.length = state.radius = kOpen;
-          break;
-        }
         default:
           break;
       }
@@ -223,36 +225,6 @@ class Pass {
       if (!length && state.length != 0) state.length = kStale;
       if (!radius && state.radius != 0) state.radius = kStale;
     }
-    if (block.skip_level != Block::kNoSkip) Join(state, before);
-  }
-
-  std::map<std::uint32_t, State> Flow(ir::ProgramId program) const {
-    std::map<std::uint32_t, State> states;
-    const IdRange<BlockId> blocks = module_.programs[program].blocks;
-    if (blocks.Empty()) return states;
-    const ir::analysis::Cfg& cfg = graphs_.Of(program);
-    std::deque<BlockId> work;
-    const auto arrive = [&](BlockId to, const State& state) {
-      if (Join(states[to.value], state)) work.push_back(to);
-    };
-    State start;
-    start.reached = true;
-    if (module_.programs[program].kind == ir::ProgramKind::kMain) start.length = start.radius = 0;
-    arrive(blocks[0], start);
-    while (!work.empty()) {
-      const BlockId id = work.front();
-      work.pop_front();
-      State state = states[id.value];
-      Through(module_.blocks[id], state);
-      for (const ir::analysis::Edge& edge : cfg.Successors(id)) {
-        if (edge.kind == ir::analysis::EdgeKind::kComputed) {
-          for (const BlockId target : cfg.ComputedTargets()) arrive(target, state);
-        } else if (edge.to.Valid()) {
-          arrive(edge.to, state);
-        }
-      }
-    }
-    return states;
   }
 
   // --- the map
@@ -370,15 +342,14 @@ class Pass {
   }
 
   void Map(ir::ProgramId program) {
-    const std::map<std::uint32_t, State> states = Flow(program);
     ProgramEditor editor(module_, program, "map_tools");
     for (const BlockId id : module_.programs[program].blocks) {
-      const auto found = states.find(id.value);
-      if (found == states.end() || !found->second.reached) continue;  // no run gets here
+      const State* before = selections_.Before(id);
+      if (before == nullptr) continue;  // no run gets here
       if (input_.source_profile->IsLathe()) {
         MapTurret(id);
       } else {
-        MapBlock(program, id, found->second, editor);
+        MapBlock(program, id, *before, editor);
       }
     }
     editor.Apply();
@@ -522,6 +493,7 @@ class Pass {
   ir::analysis::CallGraph calls_;
   ir::analysis::ModalFlow flow_;
   std::set<std::uint32_t> with_tools_, with_tools_below_;
+  ir::analysis::ForwardFlow<Pass> selections_;
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, TargetTool> found_;
   std::map<std::uint32_t, std::pair<std::uint32_t, std::uint32_t>> fixed_;
   std::set<std::string> asked_;

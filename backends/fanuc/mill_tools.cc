@@ -118,7 +118,7 @@ class Mapper {
         calls_(out.module),
         flow_(out.module, *input.source_machine, graphs_, calls_,
               {input.source_machine->start, input.config != nullptr ? input.config->entry : ir::ModalState{}}),
-        selections_({module_, *input.source_machine, graphs_, calls_, flow_}, *this) {}
+        selections_({module_, *input.source_machine, graphs_, calls_, &flow_}, *this) {}
 
   bool Run();
 
@@ -315,7 +315,7 @@ void Mapper::Transfer(ProgramId, BlockId block, State& state) const {
 }
 
 Selection Mapper::Back(const ir::analysis::CallSite& site, const State& at, const State& exit) const {
-  if (selects_[site.callee.value]) return exit;
+  if (!site.callee.Valid() || selects_[site.callee.value]) return exit;
   // It leaves each caller its own tool, and may have moved Z.
   State behind = at;
   if (at.told != Selection::kYes)

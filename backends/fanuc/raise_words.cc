@@ -185,7 +185,7 @@ bool MapTools(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   const ir::analysis::ModalFlow flow(
       module, *input.source_machine, graphs, calls,
       {input.source_machine->start, input.config != nullptr ? input.config->entry : ir::ModalState{}});
-  const ToolFlow tools({module, *input.source_machine, graphs, calls, flow});
+  const ToolFlow tools({module, *input.source_machine, graphs, calls, &flow});
   bool selects = false;  // some program selects a work offset
   for (const Word& word : module.words.All()) selects = selects || word.op == WordOp::kWorkOffset;
   for (const ir::ProgramId program : module.programs.Ids()) {

@@ -86,7 +86,7 @@ bool Leads::Run() {
     for (const BlockId id : module_.programs[program].blocks) any = (uses_[id] = UseOf(program, id)).thread || any;
   }
   if (!any) return true;
-  ir::analysis::ForwardFlow<Leads> flow({module_, *input_.source_machine, graphs_, calls_, flow_}, *this);
+  ir::analysis::ForwardFlow<Leads> flow({module_, *input_.source_machine, graphs_, calls_, &flow_}, *this);
   flow.Run();
   bool ok = true;
   for (const auto& [id, use] : uses_) {

@@ -57,7 +57,7 @@ struct ToolFlow::Client {
   }
   /// A program without tool words leaves each caller its own tool.
   State Back(const ir::analysis::CallSite& site, State at, State exit) const {
-    return selects[site.callee.value] ? exit : at;
+    return !site.callee.Valid() || selects[site.callee.value] ? exit : at;
   }
 };
 

@@ -53,7 +53,7 @@ class Pass {
         calls_(out.module),
         flow_(out.module, *input.source_machine, graphs_, calls_,
               {input.source_machine->start, input.config != nullptr ? input.config->entry : ir::ModalState{}}),
-        offsets_({module_, *input.source_machine, graphs_, calls_, flow_}, *this),
+        offsets_({module_, *input.source_machine, graphs_, calls_, &flow_}, *this),
         has_y_(std::find(input.profile->axes.begin(), input.profile->axes.end(), "Y") != input.profile->axes.end()) {}
 
   bool Run() {

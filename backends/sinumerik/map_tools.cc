@@ -117,7 +117,8 @@ class Pass {
   /// A program without tool words leaves each caller its own selection.
   [[nodiscard]] State Back(const ir::analysis::CallSite& site, const State& at, const State& exit) const {
     const std::uint32_t callee = site.callee.value;
-    return with_tools_.contains(callee) || with_tools_below_.contains(callee) ? exit : at;
+    const bool selects = !site.callee.Valid() || with_tools_.contains(callee) || with_tools_below_.contains(callee);
+    return selects ? exit : at;
   }
 
   Pass(const RaiseInput& input, Translation& out, diag::Sink& sink)
@@ -130,7 +131,7 @@ class Pass {
         calls_(out.module),
         flow_(out.module, *input.source_machine, graphs_, calls_,
               {input.source_machine->start, input.config != nullptr ? input.config->entry : ir::ModalState{}}),
-        selections_({module_, *input.source_machine, graphs_, calls_, flow_}, *this) {}
+        selections_({module_, *input.source_machine, graphs_, calls_, &flow_}, *this) {}
 
   bool Run() {
     for (const ir::ProgramId program : module_.programs.Ids()) {

@@ -49,7 +49,7 @@ struct FlowSources {
   const Machine& machine;
   const FlowGraphs& graphs;
   const CallGraph& calls;
-  const ModalFlow& modal;
+  const ModalFlow* modal;  // none: a modal call may run behind any block with motion
 };
 
 /// Them, for who has no other use for them.
@@ -62,7 +62,7 @@ class FlowAnalyses {
         calls_(module),
         modal_(module, machine, graphs_, calls_, options) {}
 
-  [[nodiscard]] FlowSources Sources() const { return {module_, machine_, graphs_, calls_, modal_}; }
+  [[nodiscard]] FlowSources Sources() const { return {module_, machine_, graphs_, calls_, &modal_}; }
 
  private:
   const Module& module_;
@@ -97,7 +97,8 @@ BlockWays WaysOf(const Module& module, const Block& block);
 /// and if it needs them:
 ///   std::optional<State> Into(const CallSite&, CallMoment, const State& at);  for the callee; none: does not enter it.
 ///                                                               Else the state itself, and none for kModalStart
-///   State Back(const CallSite&, const State& at, const State& exit);          behind the call. Else `exit`
+///   State Back(const CallSite&, const State& at, const State& exit);          behind the call. Else `exit`. The callee
+///                                                               may be none; its exit is Unknown then
 ///   bool Along(ProgramId, BlockId, const Edge&, State&);        what is known on one way out; false: no run takes it
 template <class Client>
 class ForwardFlow {
@@ -218,12 +219,12 @@ class ForwardFlow {
 
   /// The state behind the call; none if there is no way back yet.
   std::optional<State> Through(const CallSite& site, CallMoment moment, const State& at) {
-    if (!site.callee.Valid()) return client_.Unknown(site.caller);
+    if (!site.callee.Valid()) return Back(site, at, client_.Unknown(site.caller));
     const std::optional<State> entry = Into(site, moment, at);
     const Call& call = module_.calls[site.call];
     if (call.form == CallForm::kBlockRange) {
       if (entry) ArriveAtTargets(site.callee, *entry);
-      return client_.Unknown(site.caller);
+      return Back(site, at, client_.Unknown(site.callee));
     }
     if (entry) Enter(site.callee, *entry);
     const std::optional<State> exit = exits_[site.callee.value];
@@ -278,10 +279,10 @@ class ForwardFlow {
   /// Modal calls that may run behind a block with motion. A run takes nothing from where the call was written: one a
   /// program is enough.
   void ThroughModalCalls(ProgramId program, BlockId block, State& state) {
-    if (modal_callees_.empty() || !modal_.ModalCallPossible(program, block)) return;
+    if (modal_callees_.empty() || (modal_ != nullptr && !modal_->ModalCallPossible(program, block))) return;
     if (!runs_modal_[block.value]) modal_runs_.push_back(block);
     runs_modal_[block.value] = true;
-    const CallId active = modal_.ActiveModalCall(program, block);
+    const CallId active = modal_ != nullptr ? modal_->ActiveModalCall(program, block) : CallId{};
     const State before = state;
     for (CallSite site : modal_callees_) {
       if (active.Valid() && site.callee != module_.calls[active].program) continue;
@@ -351,7 +352,7 @@ class ForwardFlow {
   const Machine& machine_;
   const FlowGraphs& graphs_;
   const CallGraph& calls_;
-  const ModalFlow& modal_;
+  const ModalFlow* modal_;
   Client& client_;
   std::vector<ProgramId> program_of_;  // per block
   States in_;                          // per block

@@ -1,55 +1,98 @@
 #include "ir/analysis/unwritten_cells.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
+
+#include "ir/analysis/forward_flow.h"
 
 namespace ncport::ir::analysis {
 
 namespace {
 
-using Key = std::uint64_t;  // space, cell
-using Keys = std::set<Key>;
+using Key = std::uint64_t;      // space, cell
+using Keys = std::vector<Key>;  // ascending
 
 Key KeyOf(std::uint32_t space, std::uint32_t cell) { return static_cast<Key>(space) << 32U | cell; }
+
+bool Contains(const Keys& keys, Key key) { return std::binary_search(keys.begin(), keys.end(), key); }
+
+void Insert(Keys& keys, Key key) {
+  const auto place = std::lower_bound(keys.begin(), keys.end(), key);
+  if (place == keys.end() || *place != key) keys.insert(place, key);
+}
 
 struct Place {
   BlockId block;
   WordId word;
 };
 
-/// What a program does to the cells of its caller.
-struct Summary {
-  std::map<Key, Place> reads;  // before it wrote them
-  std::optional<Keys> writes;  // on every way to a return; none: no way is known yet
+using Reads = std::map<Key, Place>;
+
+/// Which cells a program has written since its start, on every way to a block.
+struct Writes {
+  using State = Keys;
+
+  const Module& module;
+
+  [[nodiscard]] State Entry(ProgramId) const { return {}; }
+  [[nodiscard]] State Unknown(ProgramId) const { return {}; }
+  bool Join(BlockId, State& into, const State& from) const {
+    return std::erase_if(into, [&](Key key) { return !Contains(from, key); }) != 0;
+  }
+  void Transfer(ProgramId, BlockId block, State& written) const {
+    for (const WordId id : module.blocks[block].words) Write(id, written);
+  }
+  void Write(WordId id, State& written) const {
+    const Word& word = module.words[id];
+    if (word.op != WordOp::kAssign && word.op != WordOp::kFor) return;
+    const ExprId variable =
+        word.op == WordOp::kAssign ? word.Extra<ExprId>() : module.fors[word.Extra<ForId>()].variable;
+    const Expr& place = module.exprs[variable];
+    if (place.op == ExprOp::kCell) Insert(written, KeyOf(place.a, place.b));
+  }
+  /// What the caller has written is no matter of the callee: it adds its own, wherever it is called.
+  [[nodiscard]] std::optional<State> Into(const CallSite&, CallMoment, const State&) const { return std::nullopt; }
+  [[nodiscard]] State Back(const CallSite&, const State& at, const State& exit) const {
+    State all;
+    std::set_union(at.begin(), at.end(), exit.begin(), exit.end(), std::back_inserter(all));
+    return all;
+  }
 };
 
 class Analysis {
  public:
-  Analysis(const Module& module, const FlowGraphs& graphs) : module_(module), graphs_(graphs) {
-    summaries_.resize(module.programs.Size());
+  Analysis(const Module& module, const FlowGraphs& graphs, const CallGraph& calls)
+      : module_(module),
+        writes_{module},
+        flow_({module, machine_, graphs, calls, nullptr}, writes_),
+        reads_(module.programs.Size()) {
+    flow_.Run();
   }
 
-  /// True if the summary changed.
+  /// Finds what a program reads before it wrote it; true if more than was known.
   bool Run(ProgramId program);
-  [[nodiscard]] const Summary& Of(ProgramId program) const { return summaries_[program.value]; }
+  [[nodiscard]] const Reads& Of(ProgramId program) const { return reads_[program.value]; }
 
  private:
-  void Read(ExprId id, BlockId block, WordId word, const Keys& written, Summary& out) const;
-  void ReadWord(BlockId block, WordId word, const Keys& written, Summary& out) const;
-  Keys Through(BlockId block, Keys written, Summary& out) const;
+  void Read(ExprId id, BlockId block, WordId word, const Keys& written, Reads& out) const;
+  void ReadWord(BlockId block, WordId word, const Keys& written, Reads& out) const;
 
   const Module& module_;
-  const FlowGraphs& graphs_;
-  std::vector<Summary> summaries_;
+  // An end word of a called program may return or not: both is the wider answer.
+  const Machine machine_{.end_in_called_program_returns = true};
+  Writes writes_;
+  ForwardFlow<Writes> flow_;
+  std::vector<Reads> reads_;  // per program
 };
 
-void Analysis::Read(ExprId id, BlockId block, WordId word, const Keys& written, Summary& out) const {
+void Analysis::Read(ExprId id, BlockId block, WordId word, const Keys& written, Reads& out) const {
   if (!id.Valid()) return;
   const Expr& expr = module_.exprs[id];
   const auto read = [&](Key key) {
-    if (!written.contains(key)) out.reads.try_emplace(key, Place{block, word});
+    if (!Contains(written, key)) out.try_emplace(key, Place{block, word});
   };
   if (expr.op == ExprOp::kCell) return read(KeyOf(expr.a, expr.b));
   if (expr.op == ExprOp::kCellAt) {
@@ -71,7 +114,7 @@ void Analysis::Read(ExprId id, BlockId block, WordId word, const Keys& written, 
 }
 
 /// All values of a word; the place of an assignment only as far as its number is computed.
-void Analysis::ReadWord(BlockId block, WordId id, const Keys& written, Summary& out) const {
+void Analysis::ReadWord(BlockId block, WordId id, const Keys& written, Reads& out) const {
   const Word& word = module_.words[id];
   const auto read = [&](ExprId expr) { Read(expr, block, id, written, out); };
   read(word.value);
@@ -96,6 +139,11 @@ void Analysis::ReadWord(BlockId block, WordId id, const Keys& written, Summary& 
     }
     case WordOp::kJump:
       return read(module_.jumps[word.Extra<JumpId>()].target.expr);
+    case WordOp::kRepeatPart: {
+      const Part& part = module_.parts[word.Extra<PartId>()];
+      read(part.first.expr);
+      return read(part.last.expr);
+    }
     case WordOp::kSwitch: {
       const Switch& cases = module_.switches[word.Extra<SwitchId>()];
       for (std::uint32_t i = 0; i < cases.arm_count; ++i) {
@@ -125,118 +173,51 @@ void Analysis::ReadWord(BlockId block, WordId id, const Keys& written, Summary& 
   }
 }
 
-Keys Analysis::Through(BlockId id, Keys written, Summary& out) const {
-  const Block& block = module_.blocks[id];
-  const Keys before = written;
-  bool conditional = block.skip_level != Block::kNoSkip;
-  for (const WordId word_id : block.words) {
-    const Word& word = module_.words[word_id];
-    ReadWord(id, word_id, written, out);
-    switch (word.op) {
-      case WordOp::kWhen:
-      case WordOp::kSkipRest:
-        conditional = true;
-        break;
-      case WordOp::kAssign: {
-        const Expr& place = module_.exprs[word.Extra<ExprId>()];
-        if (place.op == ExprOp::kCell) written.insert(KeyOf(place.a, place.b));
-        break;
-      }
-      case WordOp::kFor: {
-        const Expr& place = module_.exprs[module_.fors[word.Extra<ForId>()].variable];
-        if (place.op == ExprOp::kCell) written.insert(KeyOf(place.a, place.b));
-        break;
-      }
-      case WordOp::kCall:
-      case WordOp::kModalCall: {
-        if (!word.Extra<CallId>().Valid()) break;
-        const ProgramId callee = module_.calls[word.Extra<CallId>()].program;
-        if (!callee.Valid()) break;
-        const Summary& below = summaries_[callee.value];
-        for (const auto& [key, place] : below.reads) {
-          if (!written.contains(key)) out.reads.try_emplace(key, place);
-        }
-        // A modal call may never run.
-        if (word.op == WordOp::kCall && below.writes) written.insert(below.writes->begin(), below.writes->end());
-        break;
-      }
-      default:
-        break;
-    }
-  }
-  return conditional ? before : written;
-}
-
 bool Analysis::Run(ProgramId program) {
-  const Cfg& graph = graphs_.Of(program);
-  const IdRange<BlockId> blocks = module_.programs[program].blocks;
-  Summary now;
-  if (blocks.Empty()) now.writes.emplace();
-  std::vector<std::optional<Keys>> in(blocks.count);
-  if (!blocks.Empty()) in[0].emplace();
-  std::set<std::uint32_t> work;
-  if (!blocks.Empty()) work.insert(0);
-  const auto meet = [](std::optional<Keys>& at, const Keys& from) {
-    if (!at) {
-      at = from;
-      return true;
-    }
-    const std::size_t size = at->size();
-    std::erase_if(*at, [&](Key key) { return !from.contains(key); });
-    return at->size() != size;
-  };
-  while (!work.empty()) {
-    const std::uint32_t index = *work.begin();
-    work.erase(work.begin());
-    Summary unused;
-    const Keys after = Through(blocks[index], *in[index], unused);
-    const auto go = [&](BlockId to) {
-      const std::uint32_t next = to.value - blocks.begin;
-      if (meet(in[next], after)) work.insert(next);
-    };
-    for (const Edge& edge : graph.Successors(blocks[index])) {
-      if (edge.to.Valid()) {
-        go(edge.to);
-      } else if (edge.kind == EdgeKind::kComputed) {
-        for (const BlockId target : graph.ComputedTargets()) go(target);
-      } else if (edge.kind != EdgeKind::kAlarm && edge.kind != EdgeKind::kMissing) {
-        meet(now.writes, after);
+  Reads& known = reads_[program.value];
+  const std::size_t before = known.size();
+  for (const BlockId id : module_.programs[program].blocks) {
+    const Keys* arrival = flow_.Before(id);
+    if (arrival == nullptr) continue;
+    Keys written = *arrival;
+    for (const WordId word_id : module_.blocks[id].words) {
+      ReadWord(id, word_id, written, known);
+      writes_.Write(word_id, written);
+      const Word& word = module_.words[word_id];
+      if ((word.op != WordOp::kCall && word.op != WordOp::kModalCall) || !word.Extra<CallId>().Valid()) continue;
+      const ProgramId callee = module_.calls[word.Extra<CallId>()].program;
+      if (!callee.Valid()) continue;
+      // A modal call runs later, when at least as much is written.
+      if (callee != program) {
+        for (const auto& [key, place] : reads_[callee.value]) {
+          if (!Contains(written, key)) known.try_emplace(key, place);
+        }
       }
+      const Keys* exit = flow_.Exit(callee);
+      if (word.op == WordOp::kCall && exit != nullptr) written = writes_.Back({}, written, *exit);
     }
   }
-  // Reads are collected once the sets stand.
-  for (std::uint32_t i = 0; i < blocks.count; ++i) {
-    if (in[i]) Through(blocks[i], *in[i], now);
-  }
-  Summary& known = summaries_[program.value];
-  const auto same_reads = [&] {
-    return known.reads.size() == now.reads.size() &&
-           std::equal(known.reads.begin(), known.reads.end(), now.reads.begin(),
-                      [](const auto& a, const auto& b) { return a.first == b.first; });
-  };
-  if (same_reads() && known.writes == now.writes) return false;
-  known = std::move(now);
-  return true;
+  return known.size() != before;
 }
 
 }  // namespace
 
 std::vector<UnwrittenRead> UnwrittenCells(const Module& module, const FlowGraphs& graphs, const CallGraph& calls) {
-  Analysis analysis(module, graphs);
-  // Callees first. Programs that call each other in a circle settle after a few rounds: reads only grow, and once all
-  // of them are known writes only shrink.
+  Analysis analysis(module, graphs, calls);
+  // Callees first. Programs that call each other in a circle settle after a few rounds: reads only grow.
   for (bool changed = true; changed;) {
     changed = false;
     for (const ProgramId program : calls.BottomUp()) changed = analysis.Run(program) || changed;
   }
-  std::set<std::uint32_t> called;
+  std::set<std::uint32_t> called;  // groups of programs, from outside of them
   for (const CallSite& site : calls.AllSites()) {
-    if (site.callee.Valid()) called.insert(site.callee.value);
+    if (site.callee.Valid() && calls.GroupOf(site.callee) != calls.GroupOf(site.caller))
+      called.insert(calls.GroupOf(site.callee));
   }
   std::map<Key, Place> reads;
   for (const ProgramId program : module.programs.Ids()) {
-    if (called.contains(program.value) && module.programs[program].kind != ProgramKind::kMain) continue;
-    reads.insert(analysis.Of(program).reads.begin(), analysis.Of(program).reads.end());
+    if (called.contains(calls.GroupOf(program)) && module.programs[program].kind != ProgramKind::kMain) continue;
+    reads.insert(analysis.Of(program).begin(), analysis.Of(program).end());
   }
   std::vector<UnwrittenRead> result;
   for (const auto& [key, place] : reads)

@@ -32,6 +32,35 @@ std::size_t Distance(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
+/// Letters in front that are the same.
+std::size_t SameStart(std::string_view a, std::string_view b) {
+  std::size_t same = 0;
+  while (same < std::min(a.size(), b.size()) && Lower(a[same]) == Lower(b[same])) ++same;
+  return same;
+}
+
+/// True if the first letters that differ lie side by side on the keyboard, so that a finger may have missed.
+bool Beside(std::string_view a, std::string_view b) {
+  constexpr std::string_view kRows[] = {"1234567890", "qwertyuiop", "asdfghjkl", "zxcvbnm"};
+  const std::size_t at = SameStart(a, b);
+  if (at >= std::min(a.size(), b.size())) return false;
+  for (const std::string_view row : kRows) {
+    const std::size_t first = row.find(Lower(a[at]));
+    const std::size_t second = row.find(Lower(b[at]));
+    if (first == std::string_view::npos || second == std::string_view::npos) continue;
+    return first + 1 == second || second + 1 == first;
+  }
+  return false;
+}
+
+/// Of two names that are as near, the one that starts longer alike; then the one whose key lies beside.
+bool Likelier(std::string_view name, std::string_view candidate, std::string_view known) {
+  const std::size_t same = SameStart(name, candidate);
+  const std::size_t same_known = SameStart(name, known);
+  if (same != same_known) return same > same_known;
+  return Beside(name, candidate) && !Beside(name, known);
+}
+
 }  // namespace
 
 std::string_view NearName(std::string_view name, std::span<const std::string_view> candidates) {
@@ -42,7 +71,7 @@ std::string_view NearName(std::string_view name, std::span<const std::string_vie
   for (const std::string_view candidate : candidates) {
     if (candidate.size() > kMaxLength) continue;
     const std::size_t distance = Distance(name, candidate);
-    if (distance < best) {
+    if (distance < best || (distance == best && !found.empty() && Likelier(name, candidate, found))) {
       best = distance;
       found = candidate;
     }

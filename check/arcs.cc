@@ -174,11 +174,12 @@ class ArcCheck {
     if (modes.units == ir::Units::kUnknown) return;
     std::array<double, kAxes> center{};
     bool has_center = false;
+    const ir::Word* radius = nullptr;
     const ir::Word* first = nullptr;
     const ir::Word* last = nullptr;
     for (const ir::WordId word_id : module_.blocks[id].words) {
       const ir::Word& word = module_.words[word_id];
-      if (word.op == WordOp::kRadius) return;
+      if (word.op == WordOp::kRadius) radius = &word;
       if (word.op == WordOp::kAxis || word.op == WordOp::kCenter) {
         if (first == nullptr) first = &word;
         last = &word;
@@ -190,17 +191,22 @@ class ArcCheck {
       center[word.index] = *value;
       has_center = true;
     }
-    if (!has_center) return;
+    if (!has_center && radius == nullptr) return;
     for (const std::size_t axis : plane) {
       if (!start[axis] || !at_[axis]) return;
+    }
+    const bool inch = modes.units == ir::Units::kInch || modes.units == ir::Units::kInchGeometry;
+    if (radius != nullptr) {
+      if (!has_center) {
+        Radius(id, *radius, std::hypot(*at_[plane[0]] - *start[plane[0]], *at_[plane[1]] - *start[plane[1]]) / 2, inch);
+      }
+      return;
     }
     const double u = center[plane[0]];
     const double v = center[plane[1]];
     const double at_start = std::hypot(u, v);
     const double at_end = std::hypot(*start[plane[0]] + u - *at_[plane[0]], *start[plane[1]] + v - *at_[plane[1]]);
-    const bool inch = modes.units == ir::Units::kInch || modes.units == ir::Units::kInchGeometry;
-    const double tolerance = std::fmax(subject_.machine.circle_tolerance / (inch ? kInch : 1),
-                                       subject_.machine.circle_tolerance_factor * at_start);
+    const double tolerance = Tolerance(at_start, inch);
     if (std::fabs(at_start - at_end) <= tolerance * (1 + 1e-9)) return;
     SourceRange place = subject_.PlaceOf(id, *first);
     place.end = last->begin + last->length;
@@ -209,6 +215,24 @@ class ArcCheck {
     finding.control = dialects::AlarmFor(subject_.profile, finding.code);
     finding.notes.push_back({{}, fmt::format("the control takes a difference of {:.4g}", tolerance)});
     finding.help = "one of the end point and the centre is wrong; the centre counts from the start point";
+  }
+
+  /// An arc by its radius: half of the way from the start to the end is the least one.
+  void Radius(BlockId id, const ir::Word& word, double least, bool inch) {
+    const std::optional<double> value = LiteralValue(module_, word.value);
+    if (!value || (word.flags & ir::Word::kIncrements) != 0) return;
+    const double radius = std::fabs(*value);
+    if (least - radius <= Tolerance(radius, inch) * (1 + 1e-9)) return;
+    sink_
+        .Report(diag::Code::kOutOfRange, subject_.PlaceOf(id, word), fmt::format("{:.6g}", radius),
+                fmt::format("the radii that reach the end point, {:.6g} and more", least))
+        .help = "one of the radius and the end point is wrong";
+  }
+
+  /// Difference of radii that the control takes.
+  [[nodiscard]] double Tolerance(double radius, bool inch) const {
+    return std::fmax(subject_.machine.circle_tolerance / (inch ? kInch : 1),
+                     subject_.machine.circle_tolerance_factor * radius);
   }
 
   const Subject& subject_;

@@ -55,7 +55,8 @@ void CheckExterns(const Subject& subject, diag::Sink& sink) {
         const ir::Extern& record = module.externs[word.Extra<ir::ExternId>()];
         const std::string_view name = module.View(record.name);
         const ir::ProgramId callee = module.FindProgram(name, subject.ignore_case);
-        if (!callee.Valid()) continue;
+        // A PROC that was not understood has its finding.
+        if (!callee.Valid() || subject.InRefusedBlock(callee, "PROC")) continue;
         ReportDifference(module, record, module.programs[callee], subject.PlaceOf(block, word), sink);
       }
     }

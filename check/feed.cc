@@ -1,5 +1,7 @@
 #include <vector>
 
+#include "check/expressions.h"
+#include "check/motion_words.h"
 #include "check/rules.h"
 #include "dialects/finding_alarms.h"
 
@@ -23,6 +25,9 @@ bool FeedMotion(ir::Motion motion) {
       return false;
   }
 }
+
+/// `F0`: a feed of nothing is none (sinumerik-10#49, fanuc-11#8).
+bool IsZero(const ir::Module& module, const ir::Word& feed) { return LiteralValue(module, feed.value) == 0.0; }
 
 /// Where a feed may have been set on some way through programs and calls. What is not known counts as set, so that a
 /// finding holds on every way.
@@ -66,6 +71,8 @@ class FeedFlow {
     for (const ir::WordId id : block.words) {
       switch (module_.words[id].op) {
         case WordOp::kFeed:
+          if (!IsZero(module_, module_.words[id])) return true;
+          break;
         case WordOp::kComputedG:
         case WordOp::kDataSetting:
         case WordOp::kVerbatim:
@@ -80,6 +87,15 @@ class FeedFlow {
     return false;
   }
 
+  [[nodiscard]] bool TakesAway(const ir::Block& block) const {
+    bool takes = false;
+    for (const ir::WordId id : block.words) {
+      const ir::Word& word = module_.words[id];
+      takes = takes || (word.op == WordOp::kFeed && IsZero(module_, word));
+    }
+    return takes && block.skip_level == ir::Block::kNoSkip;
+  }
+
   [[nodiscard]] ProgramId Callee(const ir::Word& word) const {
     const auto call = word.Extra<ir::CallId>();
     return module_.calls.Contains(call) ? module_.calls[call].program : ProgramId{};
@@ -87,7 +103,8 @@ class FeedFlow {
 
   /// A feed may be in force behind the block.
   [[nodiscard]] bool Behind(const ir::Block& block, bool before) const {
-    if (before || SetsItself(block)) return true;
+    if (SetsItself(block)) return true;
+    if (before && !TakesAway(block)) return true;
     for (const ir::WordId id : block.words) {
       const ir::Word& word = module_.words[id];
       if (word.op != WordOp::kCall && word.op != WordOp::kModalCall) continue;
@@ -144,7 +161,7 @@ class FeedFlow {
     while (!open.empty()) {
       const BlockId block = open.back();
       open.pop_back();
-      Follow(graph, block, set);
+      if (Behind(module_.blocks[block], true)) Follow(graph, block, set);
     }
   }
 
@@ -164,43 +181,14 @@ class FeedFlow {
   std::vector<std::uint8_t> leaves_;    // per program: a feed may be set when it returns
 };
 
-/// The word that moves an axis in the block, or null: its axis words are none, or name something else.
-const ir::Word* MovingWord(const ir::Module& module, const ir::Block& block) {
-  const ir::Word* moving = nullptr;
+/// The feed of the block, or null.
+const ir::Word* FeedOf(const ir::Module& module, const ir::Block& block) {
+  const ir::Word* feed = nullptr;
   for (const ir::WordId id : block.words) {
     const ir::Word& word = module.words[id];
-    switch (word.op) {
-      case WordOp::kAxis:
-      case WordOp::kAxisComputed:
-      case WordOp::kPolarRadius:
-      case WordOp::kPolarAngle:
-        if (moving == nullptr) moving = &word;
-        break;
-      case WordOp::kFrame: {
-        // The end of a rotation or scale leaves the axis words to the move (fanuc-8.5).
-        const auto op = static_cast<ir::FrameOp>(word.index);
-        if (op == ir::FrameOp::kRotateEnd || op == ir::FrameOp::kScaleEnd) break;
-        return nullptr;
-      }
-      case WordOp::kFeed:
-      case WordOp::kFeedOnce:
-      case WordOp::kReference:
-      case WordOp::kMachineCoords:  // some controls go there at rapid
-      case WordOp::kPole:
-      case WordOp::kPresetPosition:
-      case WordOp::kDwellSeconds:
-      case WordOp::kDwellRevolutions:
-      case WordOp::kDataSetting:
-      case WordOp::kComputedG:
-      case WordOp::kWhen:
-      case WordOp::kCycle:
-      case WordOp::kCycleValue:
-        return nullptr;
-      default:
-        break;
-    }
+    if (word.op == WordOp::kFeed || word.op == WordOp::kFeedOnce) feed = &word;
   }
-  return moving;
+  return feed;
 }
 
 }  // namespace
@@ -214,13 +202,15 @@ void CheckFeed(const Subject& subject, diag::Sink& sink) {
     const ir::analysis::Cfg& graph = subject.graphs.Of(program);
     for (const BlockId id : module.programs[program].blocks) {
       const ir::Block& block = module.blocks[id];
-      if (!graph.Reachable(id) || flow.MayHave(id) || (block.flags & ir::Block::kRefused) != 0) continue;
+      const ir::Word* feed = FeedOf(module, block);
+      const bool zero = feed != nullptr && feed->op == WordOp::kFeed && IsZero(module, *feed);
+      if (!graph.Reachable(id) || (flow.MayHave(id) && !zero) || (block.flags & ir::Block::kRefused) != 0) continue;
       const ir::Word* moving = MovingWord(module, block);
-      if (moving == nullptr) continue;
+      if (moving == nullptr || (feed != nullptr && !zero)) continue;
       const ir::ModalState modes = subject.modal.At(program, id);
       if (!FeedMotion(modes.motion) || modes.feed_mode == ir::FeedMode::kInverseTime) continue;
       diag::Diagnostic& finding = sink.Report(diag::Code::kMissingFeed, subject.PlaceOf(id, *moving));
-      finding.help = "no block on the way here sets a feed: write F in this block";
+      finding.help = zero ? "F0 is no feed" : "no block on the way here sets a feed: write F in this block";
       finding.control = dialects::AlarmFor(subject.profile, finding.code);
       break;  // once a program: the next moves lack the same word
     }

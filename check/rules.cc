@@ -12,6 +12,7 @@ void CheckPrograms(const Subject& subject, diag::Sink& sink) {
     CheckJumpsIntoStructures(subject, program, sink);
     CheckProgramEnd(subject, program, sink);
     CheckArcs(subject, program, sink);
+    CheckArcWords(subject, program, sink);
   }
   CheckUnusedNames(subject, sink);
   CheckExterns(subject, sink);

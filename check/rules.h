@@ -25,8 +25,12 @@ void CheckUnusedLabels(const Subject& subject, ir::ProgramId program, diag::Sink
 void CheckJumpsIntoStructures(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
 /// NC4005: a way leads to the end of the text without an end word, where the control wants one.
 void CheckProgramEnd(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
-/// NC5004: end points and centre of an arc that are all literal and do not lie on one circle.
+/// NC5004, NC2005: end points and centre of an arc that are all literal and do not lie on one circle, or a radius that
+/// does not reach from the start to the end.
 void CheckArcs(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
+/// NC5005, NC1002, NC1013: arcs that nothing describes, centres outside of the plane, a radius on a straight line,
+/// polar words beside an axis of the plane.
+void CheckArcWords(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
 
 // Of the whole set.
 
@@ -36,7 +40,7 @@ void CheckUnusedNames(const Subject& subject, diag::Sink& sink);
 void CheckExterns(const Subject& subject, diag::Sink& sink);
 /// NC4006: every way through a program calls it again.
 void CheckRecursion(const Subject& subject, diag::Sink& sink);
-/// NC5002: a feed move on no way to which a feed was set.
+/// NC5002: a feed move on no way to which a feed was set, or with a feed of 0.
 void CheckFeed(const Subject& subject, diag::Sink& sink);
 
 }  // namespace ncport::check

@@ -1,5 +1,6 @@
 // System variables of card section 9. What only the machine knows is kEnvironment.
 #include <algorithm>
+#include <string>
 
 #include "dialects/sinumerik/words.h"
 
@@ -146,6 +147,14 @@ constexpr SystemRow kOther{"A", K::kEnvironment, Type::kAny, true, 0xFF};
 
 bool StartsWith(std::string_view text, std::string_view start) { return text.substr(0, start.size()) == start; }
 
+/// Machine and setting data, by the letters in front.
+bool StartsAsData(std::string_view name) {
+  for (const std::string_view start : {"MN_", "MC_", "MA_", "MAS_", "SN_", "SC_", "SA_"}) {
+    if (StartsWith(name, start)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::span<const SystemRow> SystemVariables() { return kRows; }
@@ -158,14 +167,18 @@ const SystemRow* FindSystemVariable(std::string_view name) {
   if (StartsWith(name, "TC_DP")) return &kToolEdge;
   if (name == "TC_TP2") return &kToolText;
   if (StartsWith(name, "TC_TP")) return &kTool;
-  for (const std::string_view start : {"MN_", "MC_", "MA_", "MAS_", "SN_", "SC_", "SA_"}) {
-    if (StartsWith(name, start)) return &kData;
-  }
+  if (StartsAsData(name)) return &kData;
   for (const std::string_view start :
        {"A_", "AA_", "AC_", "AN_", "P_", "VA_", "VC_", "VN_", "TC_", "C_", "ON_", "OC_", "OA_"}) {
     if (StartsWith(name, start)) return &kOther;
   }
   return nullptr;
+}
+
+bool IsMachineData(std::string_view name) {
+  std::string upper(name.substr(std::min(name.find_first_not_of('$'), name.size())));
+  for (char& c : upper) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  return StartsAsData(upper);
 }
 
 bool IsUnlistedSystemVariable(std::string_view name) { return FindSystemVariable(name) == &kOther; }

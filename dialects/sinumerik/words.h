@@ -84,6 +84,9 @@ const SystemRow* FindSystemVariable(std::string_view name);
 /// machine and setting data, whose names are the builder's.
 bool IsUnlistedSystemVariable(std::string_view name);
 
+/// True for machine and setting data by the letters in front: `$MN_`, `$MC_` .. Any case, with or without `$`.
+bool IsMachineData(std::string_view name);
+
 /// Words of PROC blocks behind the parameters; only SAVE changes what a run does.
 std::span<const std::string_view> ProgramAttributes();
 /// Attributes of DEF without a value (SYNRW, INIPO ...) and with one (PHU 5).

@@ -26,9 +26,10 @@ class Hints {
 
   void Run() {
     // Each looks for one kind of slip; the first that fits has the word.
-    (void)(TornNumber() || LettersInNumber() || NewName() || TornName() || MissingType() || Comparison() ||
-           NoFunction() || NoBrackets() || NoOperator() || Closer() || Gap() || SecondSign() || MissingValue() ||
-           ForeignName() || TornWord() || ColonOfLabel() || Statement() || InnerWord() || CommentMark());
+    (void)(GroupIndex() || TornNumber() || LettersInNumber() || NewName() || TornName() || MissingType() ||
+           Comparison() || NoFunction() || NoBrackets() || LooseCell() || NoOperator() || Closer() || Gap() ||
+           SecondSign() || MissingValue() || ForeignName() || TornWord() || ColonOfLabel() || Statement() ||
+           InnerWord() || CommentMark());
     if (!help_.empty()) error_.help = help_.c_str();
   }
 
@@ -85,6 +86,12 @@ class Hints {
   }
   static bool IsOperator(K kind) {
     return kind >= K::kEqualTo && kind <= K::kConcat && kind != K::kNot && kind != K::kBitNot;
+  }
+
+  // `G[8]=2`: the word of a group by its index.
+  bool GroupIndex() {
+    if (Before() != K::kComputedG || Kind() != K::kLeftBracket) return false;
+    return Put(Code::kNotSupported, at_ - 1);
   }
 
   // `10.5.2`: the second point begins a number of its own.
@@ -216,6 +223,8 @@ class Hints {
       return Say("{} takes its value in brackets: {}(..)", TextOf(at_ - 1), TextOf(at_ - 1));
     if (Kind() == K::kLeftParen && (Before() == K::kSystem || Before() == K::kCell))
       return Say("an index stands in []");
+    if (at_ > 0 && at_ < tokens_.size() && BetweenTokens().find('&') != std::string_view::npos)
+      return Say("the word AND joins two conditions");
     if (Kind() == K::kLeftParen && (Before() == K::kRightParen || Before() == K::kNumber))
       return Say("an operator is missing between {} and (", TextOf(at_ - 1));
     if (Before() == K::kRightParen && Holds(K::kEquals) && (Kind() == K::kNumber || Kind() == K::kCell))
@@ -225,10 +234,52 @@ class Hints {
       Put(Code::kUnexpectedText, at_ - 1);
       return Say("an operator is missing between ) and {}", TextOf(at_ - 1));
     }
+    if (InCall() && IsValue(Before()) && StartsValue(Kind()) && error_.code == Code::kExpectedText)
+      return Say("a comma is missing between {} and {}", TextOf(at_ - 1), TextOf(at_));
     const bool number = Before() == K::kNumber || Before() == K::kAxisValue || Before() == K::kAddressValue;
     return Kind() == K::kNumber && number && error_.code == Code::kUnexpectedText &&
            tokens_[at_ - 1].End() < tokens_[at_].offset &&
            Say("a number holds no blank; a word begins with its letter");
+  }
+
+  [[nodiscard]] std::string_view BetweenTokens() const {
+    const std::uint32_t end = tokens_[at_ - 1].End();
+    return line_.substr(end, tokens_[at_].offset - end);
+  }
+  /// True in the brackets of a call, which hold a list.
+  [[nodiscard]] bool InCall() const {
+    std::vector<std::size_t> open;
+    for (std::size_t i = 0; i < std::min(at_, tokens_.size()); ++i) {
+      if (KindAt(i) == K::kLeftParen) open.push_back(i);
+      if (KindAt(i) == K::kRightParen && !open.empty()) open.pop_back();
+    }
+    if (open.size() != 1 || open[0] == 0) return false;
+    const K callee = KindAt(open[0] - 1);
+    return open[0] - 1 >= First() && (callee == K::kName || callee == K::kSubName) &&
+           (open[0] - 1 == First() || KindAt(open[0] - 2) == K::kModalCall);
+  }
+
+  // `G2 X20 R5`, `X=R1 R2`: an R parameter that neither gets a value nor gives one.
+  bool LooseCell() {
+    if (Before() != K::kCell || error_.code != Code::kExpectedText || error_.detail == nullptr ||
+        std::string_view(error_.detail) != "=" || Kind() == K::kEqualTo)
+      return false;
+    const std::string_view cell = TextOf(at_ - 1);
+    const bool value_before =
+        at_ > 1 && IsValue(KindAt(at_ - 2)) && KindAt(at_ - 2) != K::kAxisValue && KindAt(at_ - 2) != K::kAddressValue;
+    if (IsOperator(Kind()) || at_ < 2) return false;
+    bool arc = false;
+    for (std::size_t i = 0; i < at_; ++i) {
+      const std::string_view text = TextOf(i);
+      arc = arc || (KindAt(i) == K::kCode &&
+                    (IsWord(text, "G2") || IsWord(text, "G3") || IsWord(text, "G02") || IsWord(text, "G03")));
+    }
+    const std::string_view before = TextOf(at_ - 2);
+    Put(Code::kUnexpectedText, at_ - 1);
+    if (arc && !value_before)
+      return Say("{} is an R parameter; the radius of an arc is written CR={}", cell, cell.substr(1));
+    if (value_before) return Say("an operator is missing between {} and {}", before, cell);
+    return Say("{} is an R parameter: it gets a value with =", cell);
   }
 
   // `A[0)`, `(1]`: the innermost open bracket is of the other form.
@@ -260,7 +311,10 @@ class Hints {
     const bool operator_before = IsOperator(Before()) || Before() == K::kEquals;
     if (!operator_before) {
       // The parser may stop at the operator in front of the gap.
-      if (IsOperator(Kind()) && at_ + 1 >= tokens_.size()) return Say("a value is missing behind {}", TextOf(at_));
+      if (!IsOperator(Kind())) return false;
+      if (at_ + 1 >= tokens_.size()) return Say("a value is missing behind {}", TextOf(at_));
+      if (IsOperator(KindAt(at_ + 1)) && !StartsValue(KindAt(at_ + 1)))
+        return Say("a value is missing between {} and {}", TextOf(at_), TextOf(at_ + 1));
       return false;
     }
     if (IsOperator(Kind())) return Say("a value is missing between {} and {}", TextOf(at_ - 1), TextOf(at_));
@@ -295,14 +349,20 @@ class Hints {
 
   // `Z--2`: two signs in front of a number.
   bool SecondSign() {
-    if ((Kind() != K::kMinus && Kind() != K::kPlus) || at_ == 0 || tokens_[at_ - 1].End() != tokens_[at_].offset)
-      return false;
+    if (at_ == 0 || at_ >= tokens_.size() || tokens_[at_ - 1].End() != tokens_[at_].offset) return false;
     const K next = KindAt(at_ + 1);
+    if (IsOperator(Kind()) && (Before() == K::kAxisValue || Before() == K::kAddressValue) && StartsValue(next)) {
+      const std::string_view word = TextOf(at_ - 1);
+      return Say("a value that is computed stands behind =: {}={}{}{}", word.substr(0, 1), word.substr(1), TextOf(at_),
+                 TextOf(at_ + 1));
+    }
+    if (Kind() != K::kMinus && Kind() != K::kPlus) return false;
     if (Before() != K::kAxis && Before() != K::kAddress) return false;
     error_.code = Code::kUnexpectedText;
     error_.detail = nullptr;
-    return (next == K::kMinus || next == K::kPlus) ? Say("a number has one sign")
-                                                   : Say("a value that is computed stands behind =");
+    if (next == K::kMinus || next == K::kPlus) return Say("a number has one sign");
+    if (!StartsValue(next)) return Say("a value is missing behind {}", TextOf(at_));
+    return Say("a value that is computed stands behind =");
   }
 
   // `X Y10`: an axis letter with neither a value nor `=`.
@@ -472,6 +532,19 @@ void ExplainWord(std::string_view line, LineError& error, std::string& help) {
     help = "the letter O; is the digit 0 meant?";
   } else if (error.code == Code::kUnknownCharacter && c == '!' && behind.starts_with('=')) {
     help = "not equal is written <>";
+  } else if (error.code == Code::kUnknownCharacter && c == '#') {
+    help = digit_at(next) ? "variables of this control are R parameters, R1, and names from DEF"
+                          : "variables of this control are R parameters, R1 or R[..], and names from DEF";
+  } else if (error.code == Code::kBadNumber && c == '\'') {
+    // `'H3G'`: the digit that its base does not have.
+    const bool hex = behind.starts_with('H') || behind.starts_with('h');
+    const bool binary = behind.starts_with('B') || behind.starts_with('b');
+    for (std::size_t i = 1; (hex || binary) && i < behind.size() && behind[i] != '\''; ++i) {
+      const char digit = Upper(behind[i]);
+      if (hex ? IsDigit(digit) || (digit >= 'A' && digit <= 'F') : digit == '0' || digit == '1') continue;
+      help = fmt::format("{} is no digit of a {} number", behind[i], hex ? "hexadecimal" : "binary");
+      break;
+    }
   } else if (error.code == Code::kUnknownCharacter && c == '|') {
     help = "the word OR joins two conditions";
   } else if (error.code == Code::kUnexpectedText && (c == ')' || c == ']')) {

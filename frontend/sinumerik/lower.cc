@@ -93,7 +93,7 @@ bool Lowering::Finish() {
       word.phase = ir::Phase::kMotion;
       dwells = true;
     } else if (word.op == WordOp::kAxis || word.op == WordOp::kAxisComputed) {
-      return Fail(diag::Code::kNotAlone, *dwell_);
+      return Fail(diag::Code::kNotAlone, *dwell_, "the time stands behind F (seconds) or S (turns of the spindle)");
     }
   }
   return dwells || Fail(diag::Code::kMissingValue, *dwell_, "write the seconds as F or the revolutions as S");

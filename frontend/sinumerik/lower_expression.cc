@@ -159,7 +159,7 @@ bool Lowering::DoValue(const Action& action) {
     case Step::kCell:
     case Step::kCellAt: {
       const ir::SpaceId space = SpaceOf(token.sub);
-      if (!space.Valid()) return Fail(Code::kUnknownName, token);
+      if (!space.Valid()) return Fail(Code::kNotSupported, token);  // RG (card 3.1)
       expr.type = Type::kReal;
       if (static_cast<Step>(action.op) == Step::kCell) {
         expr.op = ExprOp::kCell;

@@ -13,6 +13,7 @@
 #include "frontend/common/token_listener.h"
 #include "frontend/sinumerik/hints.h"
 #include "frontend/sinumerik/lower.h"
+#include "frontend/sinumerik/meant_marks.h"
 #include "frontend/sinumerik/parser.h"
 #include "frontend/sinumerik/reader_state.h"
 #include "frontend/sinumerik/token_source.h"
@@ -75,36 +76,6 @@ WordOp MarkOf(K structure, std::span<const Token> tokens, std::string_view text)
   }
 }
 
-/// A mark as programs write it.
-std::string_view MarkName(WordOp mark) {
-  switch (mark) {
-    case WordOp::kIf:
-      return "IF";
-    case WordOp::kElse:
-      return "ELSE";
-    case WordOp::kEndIf:
-      return "ENDIF";
-    case WordOp::kWhile:
-      return "WHILE";
-    case WordOp::kEndWhile:
-      return "ENDWHILE";
-    case WordOp::kFor:
-      return "FOR";
-    case WordOp::kEndFor:
-      return "ENDFOR";
-    case WordOp::kLoop:
-      return "LOOP";
-    case WordOp::kEndLoop:
-      return "ENDLOOP";
-    case WordOp::kRepeat:
-      return "REPEAT";
-    case WordOp::kUntil:
-      return "UNTIL";
-    default:
-      return NameOf(mark);
-  }
-}
-
 class Reader {
  public:
   Reader(const SourceFiles& files, FileId file, const dialects::Profile& profile, const ReadOptions& options,
@@ -160,12 +131,14 @@ class Reader {
     state_.named_by_header = false;
     state_.definitions_open = true;
     state_.other_language = false;
+    state_.no_program = false;
   }
 
   void EndProgram() {
     if (!state_.program.Valid()) return;
     ir::Program& program = module_.programs[state_.program];
     program.blocks.count = static_cast<std::uint32_t>(module_.blocks.Size()) - program.blocks.begin;
+    TakeMeantEnds(files_, module_, state_.program, blocks_, sink_);
     ir::BuildStructure(module_, state_.program, 0, sink_, MarkName);
     state_.program = {};
   }
@@ -175,6 +148,14 @@ class Reader {
     if (mark.size() < 5 || mark[0] != '%') return false;
     const std::string_view name = mark.substr(1);
     return IsWord(name.substr(0, 3), "_N_") || EndsWithWord(name, "_MPF") || EndsWithWord(name, "_SPF");
+  }
+
+  /// Card 1.1: archives hold data and masks of the operator too, under headers of the same form.
+  static bool IsDataHeader(std::string_view name) {
+    for (const std::string_view ending : {"_COM", "_INI", "_TEA", "_TOA", "_UFR", "_RPA", "_WPD", "_ARC"}) {
+      if (EndsWithWord(name, ending)) return true;
+    }
+    return false;
   }
 
   // Any other line with % only frames the text.
@@ -187,6 +168,11 @@ class Reader {
       StartProgram(PlainProgramName(name), main ? ir::ProgramKind::kMain : ir::ProgramKind::kSub);
       state_.named_by_header = true;
       state_.definition_file = definitions;
+      if (IsDataHeader(name)) {
+        state_.no_program = true;
+        sink_.Report(Code::kNotSupported, {file_, line, 0, static_cast<std::uint32_t>(mark.size())}, mark).help =
+            "this part of the archive is no program and is not looked at";
+      }
     } else if (!state_.program.Valid()) {
       return false;
     } else if (mark.size() > 1) {
@@ -202,9 +188,9 @@ class Reader {
     if (options_.tokens != nullptr) options_.tokens->OnTokens(file_, line, text, source_.Tokens(), kTokenNames);
     block.indent = static_cast<std::uint16_t>(std::min<std::uint32_t>(source_.Indent(), 0xFFFF));
     const std::span<const Token> tokens = source_.Tokens();
-    if (state_.other_language) {
+    if (state_.other_language || state_.no_program) {
       block.indent = 0;
-      if (!text.empty()) Refuse(text, block, 0);
+      if (!text.empty()) Refuse(text, block, 0, WordOp::kMotion);
       if (Contains(text, "G290")) state_.other_language = false;
       blocks_.Add(block);
       return;
@@ -214,7 +200,7 @@ class Reader {
       if (const LineError* error = Words(text, line, block)) {
         error = ExplainLines(*error, text, line);
         ReportLineError(*error, text, {file_, line, 0, 0}, sink_, AlarmOf(*error, text));
-        Refuse(text, block, HeadEnd(tokens, source_.Indent()));
+        Refuse(text, block, HeadEnd(tokens, source_.Indent()), MarkOfRefused(*error, text));
       }
     }
     if (source_.Comment() != TokenSource::kNoComment) AddComment(text, tokens.empty(), block);
@@ -328,12 +314,22 @@ class Reader {
     return end;
   }
 
-  // Keeps the text of the block behind its number and label.
-  void Refuse(std::string_view text, ir::Block& block, std::uint32_t begin) {
-    const std::uint32_t end = source_.Comment() != TokenSource::kNoComment && !state_.other_language
-                                  ? source_.Comment()
-                                  : static_cast<std::uint32_t>(text.size());
-    const WordOp mark = MarkOf(source_.StructureWord(), source_.Tokens(), text.substr(begin, end - begin));
+  /// The mark that the block in `text` would have been.
+  [[nodiscard]] WordOp MarkOfRefused(const LineError& error, std::string_view text) const {
+    const WordOp mark = MarkOf(source_.StructureWord(), source_.Tokens(), TrimEnd(text));
+    if (mark != WordOp::kMotion || error.code != Code::kUnknownWord) return mark;
+    const std::size_t first = TrimEnd(text.substr(0, error.begin)).size();
+    if (first > HeadEnd(source_.Tokens(), source_.Indent())) return WordOp::kMotion;
+    const WordOp meant = MeantMark(text.substr(error.begin, error.length));
+    return meant == WordOp::kIf && Contains(text, "GOTO") ? WordOp::kMotion : meant;
+  }
+
+  // Keeps the text of the block behind its number and label. `mark`: what it would have been in a structure.
+  void Refuse(std::string_view text, ir::Block& block, std::uint32_t begin, WordOp mark) {
+    const std::uint32_t end =
+        source_.Comment() != TokenSource::kNoComment && !state_.other_language && !state_.no_program
+            ? source_.Comment()
+            : static_cast<std::uint32_t>(text.size());
     blocks_.KeepRefused(text, begin, end, mark, block);
   }
 

@@ -15,6 +15,7 @@ struct ReaderState {
   bool definitions_open = true;  // no executable block yet
   bool definition_file = false;  // .DEF: DEF NCK, DEF CHAN
   bool other_language = false;   // behind G291, up to G290
+  bool no_program = false;       // data or masks in an archive
 };
 
 }  // namespace ncport::frontend::sinumerik

@@ -176,8 +176,15 @@ bool Resolver::UnknownName(ExprId id, std::string_view name) {
   std::sort(known.begin(), known.end());
   std::string_view near = NearName(name, known);
   if (near.empty()) near = NearValueWord(name);
-  finding.help = !near.empty() ? "did you mean " + std::string(near) + "?"
-                               : "declare it with DEF, or give the definition file (.DEF) that holds it too";
+  if (const std::string mode = AsModeWithValue(name); !mode.empty()) {
+    finding.help = "did you mean " + mode + "?";
+  } else if (!near.empty()) {
+    finding.help = "did you mean " + std::string(near) + "?";
+  } else if (text_likely_) {
+    finding.help = "a text stands in quotes: \"" + std::string(name) + "\"; a variable is declared with DEF";
+  } else {
+    finding.help = "declare it with DEF, or give the definition file (.DEF) that holds it too";
+  }
   missing_names_.emplace(key, Missing{&finding});
   finding.control = dialects::AlarmFor(profile_, finding.code);
   const auto main = std::find_if(variables_.begin(), variables_.end(), [&](const auto& entry) {
@@ -328,7 +335,7 @@ bool Resolver::Word(ir::Word& word) {
     }
     case WordOp::kMessage: {
       const ExprId mode = word.Extra<ExprId>();
-      return (!word.value.Valid() || Scalar(word.value)) && (!mode.Valid() || Scalar(mode));
+      return (!word.value.Valid() || ScalarOrText(word.value)) && (!mode.Valid() || Scalar(mode));
     }
     case WordOp::kAlarm: {
       const ExprId text = word.Extra<ExprId>();
@@ -359,7 +366,7 @@ bool Resolver::Word(ir::Word& word) {
       return ok;
     }
     case WordOp::kTool:
-      if (!Scalar(word.value)) return false;
+      if (!ScalarOrText(word.value)) return false;
       return module_.exprs[word.value].type == Type::kString || Fits(word.value, Type::kInt);
     case WordOp::kEdge:
     case WordOp::kComputedM:
@@ -381,8 +388,24 @@ bool Resolver::Define(ir::VariableId id) {
   if (ok && variable.upper_limit.Valid()) ok = Number(variable.upper_limit);
   module_.variables[id] = variable;
   ok = ok && (!variable.initial_list.Valid() || List(variable.initial_list, {}, id));
+  if (ok && variable.initial_list.Valid()) Surplus(variable);
   defined_ = {};
   return ok;
+}
+
+// Card 3.5: what the control does with more values than elements is not certain.
+void Resolver::Surplus(const ir::Variable& variable) {
+  const ir::AssignList& list = module_.assign_lists[variable.initial_list];
+  std::uint64_t elements = 1;
+  for (std::uint8_t i = 0; i < variable.dimension_count; ++i) elements *= variable.dimensions[i];
+  if (list.repeat || elements == 0 || list.values.count <= elements) return;
+  const ExprId first = module_.expr_items[list.values.begin + elements];
+  if (!first.Valid()) return;
+  sink_
+      .ReportAs(diag::Severity::kWarning, Code::kArrayIndex, module_.RangeOf(module_.blocks[block_], first), elements,
+                module_.View(variable.name), elements - 1)
+      .help = "the array has " + std::to_string(elements) + (elements == 1 ? " element, " : " elements, ") +
+              std::to_string(list.values.count) + " values are given";
 }
 
 bool Resolver::Parameters(ir::ProgramId program) {

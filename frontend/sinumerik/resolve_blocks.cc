@@ -46,7 +46,7 @@ std::optional<double> Literal(const ir::Module& module, ExprId id) {
 }  // namespace
 
 bool Resolver::BlockRules(const ir::Block& block) {
-  bool ok = OwnBlock(block) && PolarBesideAxis(block);
+  bool ok = OwnBlock(block) && PolarBesideAxis(block) && Lead(block);
   Marks(block);
   const ir::Word* center = nullptr;
   const ir::Word* radius = nullptr;
@@ -86,12 +86,53 @@ bool Resolver::OwnBlock(const ir::Block& block) {
     if (word.op == WordOp::kFrame) frame = &word;
     if (word.op == WordOp::kMotion) motion = &word;
   }
+  if (!EndAlone(block)) return false;
   if (frame == nullptr || motion == nullptr) return true;
   const std::string_view text = frame->spelling < module_.spellings.size()
                                     ? module_.View(module_.spellings[frame->spelling].text)
                                     : std::string_view("the frame word");
   sink_.Report(Code::kNotAlone, module_.RangeOf(block, *frame), text).help =
       "the axis words of this block belong to the frame: the motion has a block of its own";
+  return false;
+}
+
+// Card 1.2: RET has a block of its own; M17 may stand beside a motion.
+bool Resolver::EndAlone(const ir::Block& block) {
+  if (block.words.count < 2) return true;
+  for (const ir::WordId id : block.words) {
+    const ir::Word& word = module_.words[id];
+    if (word.op != WordOp::kReturn || word.index == static_cast<std::uint8_t>(ir::ReturnKind::kAuxiliary)) continue;
+    sink_.Report(Code::kNotAlone, module_.RangeOf(block, word), "RET").help = "M17 may stand beside other words";
+    return false;
+  }
+  return true;
+}
+
+// Card 8.4: the lead of a thread stands behind the letter of its axis.
+bool Resolver::Lead(const ir::Block& block) {
+  const ir::Word* thread = nullptr;
+  bool axis = false;
+  for (const ir::WordId id : block.words) {
+    const ir::Word& word = module_.words[id];
+    if (word.op == WordOp::kCenter || word.op == WordOp::kAxisComputed) return true;
+    axis = axis || word.op == WordOp::kAxis;
+    if (word.op != WordOp::kMotion) continue;
+    switch (static_cast<ir::Motion>(word.index)) {
+      case ir::Motion::kThread:
+      case ir::Motion::kThreadIncreasing:
+      case ir::Motion::kThreadDecreasing:
+      case ir::Motion::kTapIn:
+      case ir::Motion::kTapOut:
+        thread = &word;
+        break;
+      default:
+        break;
+    }
+  }
+  if (thread == nullptr || !axis) return true;
+  const SourceRange at = module_.RangeOf(block, *thread);
+  sink_.Report(Code::kMissingValue, at, "lead of " + std::string(Slice(at))).help =
+      "the lead stands behind K for Z, I for X, J for Y";
   return false;
 }
 

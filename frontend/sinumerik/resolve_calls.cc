@@ -75,6 +75,8 @@ bool Resolver::Call(ir::Word& word) {
   if (call.name.Valid()) {
     call.program = programs_->Find(module_.View(call.name));
     if (!call.program.Valid() && !DeclaredArguments(call, word)) return false;
+    // A macro whose DEFINE was not understood has its finding.
+    if (!call.program.Valid() && refused_names_.contains(UpperOf(module_.View(call.name)))) return true;
     if (!call.program.Valid() && missing_programs_.insert(std::string(module_.View(call.name))).second) {
       // The block stays: a run that gets there ends in the alarm of the control.
       UnknownProgram(module_.View(call.name), module_.RangeOf(module_.blocks[block_], word));
@@ -86,8 +88,27 @@ bool Resolver::Call(ir::Word& word) {
   return Arguments(call, word);
 }
 
+bool Resolver::HeaderRefused(ir::ProgramId program) const {
+  for (const ir::BlockId id : module_.programs[program].blocks) {
+    const ir::Block& block = module_.blocks[id];
+    if (block.words.Empty()) continue;
+    const ir::Word& word = module_.words[block.words[0]];
+    if (word.op == ir::WordOp::kFileMark) continue;
+    return word.op == ir::WordOp::kVerbatim && module_.View(word.Extra<StringId>()).size() > 4 &&
+           IsWord(module_.View(word.Extra<StringId>()).substr(0, 4), "PROC");
+  }
+  return false;
+}
+
+void Resolver::TellParameter(diag::Diagnostic& finding) const {
+  if (!parameter_.Valid()) return;
+  const ir::Variable& parameter = module_.variables[parameter_];
+  finding.notes.push_back({{parameter.file, parameter.line, parameter.begin, parameter.begin + parameter.length},
+                           "for parameter " + std::string(module_.View(parameter.name))});
+}
+
 bool Resolver::Arguments(const ir::Call& call, const ir::Word& word) {
-  if (!call.program.Valid()) {
+  if (!call.program.Valid() || HeaderRefused(call.program)) {
     for (const ir::ArgId arg : call.args) {
       // A whole array may be an argument.
       if (module_.args[arg].value.Valid() && !Expr(module_.args[arg].value)) return false;
@@ -103,7 +124,10 @@ bool Resolver::Arguments(const ir::Call& call, const ir::Word& word) {
   for (const ir::ArgId id : call.args) {
     ir::Arg arg = module_.args[id];
     if (!arg.value.Valid()) continue;
-    if (!Argument(arg, program.parameters[arg.position])) return false;
+    parameter_ = program.library ? ir::VariableId{} : program.parameters[arg.position];
+    const bool ok = Argument(arg, program.parameters[arg.position]);
+    parameter_ = {};
+    if (!ok) return false;
     module_.args[id] = arg;
   }
   for (std::uint32_t i = 0; i < program.parameters.count; ++i) {
@@ -118,11 +142,14 @@ bool Resolver::Arguments(const ir::Call& call, const ir::Word& word) {
 }
 
 void Resolver::UnknownProgram(std::string_view name, const SourceRange& at) {
-  diag::Diagnostic& finding = sink_.Report(Code::kUnknownProgram, at, name);
   if (dialects::sinumerik::IsReserved(UpperOf(name))) {
-    finding.help = "a cycle of the control that ncport does not know; what it does is not looked at";
+    SourceRange word = at;
+    word.end = word.begin + static_cast<std::uint32_t>(name.size());
+    sink_.Report(Code::kNotSupported, word, name).help =
+        "a cycle of the control that ncport does not know; what it does is not looked at";
     return;
   }
+  diag::Diagnostic& finding = sink_.Report(Code::kUnknownProgram, at, name);
   if (const ForeignWord* foreign = FindForeignWord(name)) {
     finding.help = foreign->help;
     return;
@@ -139,6 +166,8 @@ void Resolver::UnknownProgram(std::string_view name, const SourceRange& at) {
     finding.help = "jumps name it: a label ends with a colon: " + std::string(name) + ":";
   } else if (const std::string whole = AsAddressWithValue(name); !whole.empty()) {
     finding.help = "an address of several letters has its value behind =: " + whole;
+  } else if (const std::string blank = AsWordAndAxis(name); !blank.empty()) {
+    finding.help = "a blank is missing: " + blank;
   } else if (const std::string_view word = NearStatementWord(name); !word.empty()) {
     finding.help = "did you mean " + std::string(word) + "?";
   } else {

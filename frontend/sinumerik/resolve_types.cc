@@ -2,6 +2,7 @@
 #include <string>
 
 #include "base/result.h"
+#include "dialects/sinumerik/words.h"
 #include "frontend/sinumerik/resolver.h"
 
 namespace ncport::frontend::sinumerik {
@@ -48,7 +49,10 @@ std::string_view Article(Type type) {
 }  // namespace
 
 bool Resolver::Mismatch(ExprId id, std::string_view what, std::string_view needed, std::string_view help) {
-  sink_.Report(Code::kTypeMismatch, module_.RangeOf(module_.blocks[block_], id), what, needed).help = help;
+  diag::Diagnostic& finding =
+      sink_.Report(Code::kTypeMismatch, module_.RangeOf(module_.blocks[block_], id), what, needed);
+  finding.help = help;
+  TellParameter(finding);
   return false;
 }
 
@@ -138,6 +142,49 @@ bool Resolver::Expr(ExprId id) {
   }
 }
 
+// Card 4.3, 4.6: the first argument of functions of texts is a text, all others of calculating functions are numbers.
+bool Resolver::FunctionArgument(const ir::Expr& call, std::uint32_t place, ExprId argument) {
+  using F = ir::Function;
+  const Type type = module_.exprs[argument].type;
+  switch (static_cast<F>(call.a)) {
+    case F::kStringLength:
+    case F::kIndexOf:
+    case F::kLastIndexOf:
+    case F::kIndexOfAny:
+    case F::kFind:
+    case F::kSubstring:
+    case F::kToUpper:
+    case F::kToLower:
+    case F::kParseNumber:
+    case F::kIsNumber:
+    case F::kAxisFromText:
+    case F::kFormat: {
+      const bool text = type == Type::kString || type == Type::kChar || type == Type::kBool || type == Type::kAny;
+      return place != 0 || text || Mismatch(argument, Article(type), "a text");
+    }
+    case F::kSin:
+    case F::kCos:
+    case F::kTan:
+    case F::kAsin:
+    case F::kAcos:
+    case F::kAtan2:
+    case F::kSqrt:
+    case F::kAbs:
+    case F::kSquare:
+    case F::kTruncate:
+    case F::kRound:
+    case F::kRoundUp:
+    case F::kLn:
+    case F::kExp:
+    case F::kMinimum:
+    case F::kMaximum:
+    case F::kBound:
+      return IsNumeric(type) || Mismatch(argument, Article(type), "a number");
+    default:
+      return true;
+  }
+}
+
 bool Resolver::Operation(ExprId id) {
   const ir::Expr expr = module_.exprs[id];
   const auto set = [&](Type type) {
@@ -148,7 +195,7 @@ bool Resolver::Operation(ExprId id) {
     Type of_arguments = Type::kInt;
     for (std::uint32_t i = 0; i < expr.count; ++i) {
       const ExprId argument = module_.Item(expr.b + i);
-      if (!Scalar(argument)) return false;
+      if (!Scalar(argument) || !FunctionArgument(expr, i, argument)) return false;
       of_arguments = Sum(of_arguments, module_.exprs[argument].type);
     }
     return expr.type != Type::kAny || set(of_arguments);
@@ -226,12 +273,23 @@ bool Resolver::Scalar(ExprId id) {
   return true;
 }
 
+bool Resolver::ScalarOrText(ExprId id) {
+  text_likely_ = module_.exprs[id].op == ExprOp::kName && module_.exprs[id].count == 0;
+  const bool ok = Scalar(id);
+  text_likely_ = false;
+  return ok;
+}
+
 bool Resolver::Place(ExprId id) {
   if (!Scalar(id)) return false;
   const ir::Expr& expr = module_.exprs[id];
   if (expr.op == ExprOp::kSystem) {
     const ir::System& system = module_.systems[ir::SystemId{std::size_t{expr.a}}];
-    if (!system.writable) return Fail(Code::kReadOnly, id, module_.View(system.name));
+    if (!system.writable) {
+      // Card 9: machine data can be set, but not by a program that another machine takes.
+      const bool data = dialects::sinumerik::IsMachineData(module_.View(system.name));
+      return Fail(data ? Code::kNotSupported : Code::kReadOnly, id, module_.View(system.name));
+    }
   }
   if (expr.op == ExprOp::kAxisName) return Fail(Code::kReadOnly, id, "an axis in brackets");
   return true;
@@ -278,7 +336,8 @@ bool Resolver::Fits(ExprId& id, Type type) {
   if (!possible) {
     diag::Diagnostic& finding =
         sink_.Report(Code::kTypeMismatch, module_.RangeOf(module_.blocks[block_], id), Article(from), Article(type));
-    if (type == Type::kString && numeric) finding.help = "write << in front of it";
+    if (type == Type::kString && numeric && !parameter_.Valid()) finding.help = "write << in front of it";
+    TellParameter(finding);
     return false;
   }
   // A whole number is a REAL as it is, and a literal that is whole fits INT as it is.

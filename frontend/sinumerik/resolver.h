@@ -32,6 +32,7 @@ class Resolver {
   void Block(ir::BlockId block);
   bool Word(ir::Word& word);
   bool Define(ir::VariableId variable);
+  void Surplus(const ir::Variable& variable);
   bool Parameters(ir::ProgramId program);
   bool List(ir::AssignListId list, ir::ExprId place, ir::VariableId whole);
   bool Jump(ir::JumpId jump);
@@ -48,6 +49,8 @@ class Resolver {
   // What words of one block do to each other (resolve_blocks.cc). False after an error.
   bool BlockRules(const ir::Block& block);
   bool OwnBlock(const ir::Block& block);
+  bool EndAlone(const ir::Block& block);
+  bool Lead(const ir::Block& block);
   void Marks(const ir::Block& block);
   [[nodiscard]] std::string_view Slice(const SourceRange& at) const;
   bool PolarBesideAxis(const ir::Block& block);
@@ -59,12 +62,17 @@ class Resolver {
   void UnknownProgram(std::string_view name, const SourceRange& at);
   bool DeclaredArguments(const ir::Call& call, const ir::Word& word);
   bool Argument(ir::Arg& arg, ir::VariableId parameter);
+  /// True if the PROC of a program was not understood, so that what it takes is not known.
+  [[nodiscard]] bool HeaderRefused(ir::ProgramId program) const;
+  /// Says for which parameter the value is, where there is one.
+  void TellParameter(diag::Diagnostic& finding) const;
   bool CycleLimits(const ir::Call& call);
 
   // Expressions (resolve_types.cc): names replaced, types set. False after a finding.
   bool Expr(ir::ExprId id);
   bool Name(ir::ExprId id);
   bool Operation(ir::ExprId id);
+  bool FunctionArgument(const ir::Expr& call, std::uint32_t place, ir::ExprId argument);
   bool Place(ir::ExprId id);   // something that can be written
   bool Scalar(ir::ExprId id);  // Expr, and no whole array
   bool Condition(ir::ExprId id);
@@ -79,7 +87,10 @@ class Resolver {
     sink_.Report(code, module_.RangeOf(module_.blocks[block_], at), args...);
     return false;
   }
+  /// Code::kUnknownName for `name`, once a program.
   bool UnknownName(ir::ExprId id, std::string_view name);
+  /// As Scalar, where a text is likely: an unknown name may be a text without its quotes.
+  bool ScalarOrText(ir::ExprId id);
   void SystemVariable(ir::ExprId id);
 
   [[nodiscard]] std::uint64_t Key(ir::ProgramId program, std::string_view name) const;
@@ -102,7 +113,9 @@ class Resolver {
   };
   std::unordered_map<std::string, Missing> missing_names_;  // of program_, upper case
   std::unordered_set<std::string> missing_programs_;
+  bool text_likely_ = false;                         // a text may stand where names are looked up
   std::unordered_set<std::string> doubted_systems_;  // system variables that had a finding
+  ir::VariableId parameter_;                         // whose argument is resolved
   ir::VariableId defined_;                           // whose start value is resolved
   std::optional<ProgramIndex> programs_;             // all programs are read when names are looked up
 };

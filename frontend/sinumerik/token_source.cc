@@ -535,7 +535,11 @@ void TokenSource::LexCode(Cursor& c) {
     c.at = digits == end ? from + 1 : end;
     Token& token = Push(is_g ? K::kComputedG : K::kComputedM, from, c.at);
     token.sub = static_cast<std::uint8_t>(number);
-    if (number > 99 || (is_g && digits != end)) Fail(Code::kUnknownCode, from, c.at);
+    if (is_g && digits != end) {
+      Fail(Code::kUnexpectedText, behind, behind + 1);  // `G1=5`: the number stands there already
+    } else if (number > 99) {
+      Fail(Code::kUnknownCode, from, c.at);
+    }
     return;
   }
   if (digits == end || !fits) {

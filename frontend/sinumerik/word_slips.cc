@@ -22,6 +22,7 @@ constexpr ForeignWord kForeignWords[] = {
     {"NEXT", "there is no NEXT: FOR ends with ENDFOR", "ENDFOR"},
     {"WEND", "there is no WEND: WHILE ends with ENDWHILE", "ENDWHILE"},
     {"STEP", "there is no STEP: FOR counts by one; other steps need WHILE"},
+    {"ENDREPEAT", "there is no ENDREPEAT: REPEAT ends with UNTIL and a condition", "UNTIL"},
     {"DO", "there is no DO here: the body of a loop begins in the next block"},
     {"DOWNTO", "there is no DOWNTO: FOR counts up by one; other steps need WHILE"},
     {"RETURN", "there is no RETURN: a subprogram ends with RET or M17"},
@@ -104,6 +105,28 @@ std::string AsAddressWithValue(std::string_view word) {
   for (const auto& row : words::Addresses()) {
     if (IsWord(word.substr(0, letters), row.text))
       return std::string(word.substr(0, letters)) + "=" + std::string(word.substr(letters));
+  }
+  return {};
+}
+
+std::string AsModeWithValue(std::string_view word) {
+  std::size_t letters = 0;
+  while (letters < word.size() && IsLetter(word[letters])) ++letters;
+  if (letters == word.size() || !std::all_of(word.begin() + static_cast<std::ptrdiff_t>(letters), word.end(), IsDigit))
+    return {};
+  for (const auto& row : words::ValueModes()) {
+    if (IsWord(word.substr(0, letters), row.text))
+      return std::string(word.substr(0, letters)) + "(" + std::string(word.substr(letters)) + ")";
+  }
+  return {};
+}
+
+std::string AsWordAndAxis(std::string_view word) {
+  for (const std::string_view first : kStatementWords) {
+    if (word.size() < first.size() + 2 || !IsWord(word.substr(0, first.size()), first)) continue;
+    const std::string_view rest = word.substr(first.size());
+    if (IsLetter(rest[0]) && std::all_of(rest.begin() + 1, rest.end(), IsDigit))
+      return std::string(word.substr(0, first.size())) + " " + std::string(rest);
   }
   return {};
 }

@@ -34,4 +34,9 @@ std::string AsDigits(std::string_view word);
 /// `SPOS90`, `CR5`: an address of several letters and its value, written with `=`. Empty: no such word.
 std::string AsAddressWithValue(std::string_view word);
 
+/// `IC4`, `AC-3.5`: a mode of values and its value, written with brackets. Empty: no such word.
+std::string AsModeWithValue(std::string_view word);
+/// `TRANSX10`: a word that begins a block and an axis word, with the blank between them. Empty: no such word.
+std::string AsWordAndAxis(std::string_view word);
+
 }  // namespace ncport::frontend::sinumerik

@@ -33,5 +33,13 @@ TEST_CASE("the nearest of several wins, the first of equals") {
   CHECK(NearName("loo?", names) == "loop");
 }
 
+TEST_CASE("of names as near, the one that starts longer alike or whose key lies beside wins") {
+  const std::vector<std::string_view> functions{"TAN", "ATAN2"};
+  CHECK(NearName("ATAN", functions) == "ATAN2");
+  const std::vector<std::string_view> modes{"DIAMOF", "DIAMON"};
+  CHECK(NearName("DIAMOM", modes) == "DIAMON");
+  CHECK(NearName("DIAMOG", modes) == "DIAMOF");
+}
+
 }  // namespace
 }  // namespace ncport

@@ -149,4 +149,44 @@ TEST_CASE("arcs whose ends lie on no circle") {
   CHECK(Mill("G0 X=R1 Y0\nG2 X10 Y0 I4 J0 F100\nM30\n").empty());
 }
 
+TEST_CASE("a feed of 0 is none") {
+  CHECK(Mill("G1 X1 F0\nM30\n") == "NC5002 1");
+  CHECK(Mill("F100\nG1 X1\nF0\nG1 X2\nM30\n") == "NC5002 4");
+  CHECK(Macro("O1\nF0\nG1 X2.\nM30\n") == "NC5002 3");
+  CHECK(Mill("F0\nG0 X1\nG1 X2 F100\nM30\n").empty());
+  CHECK(Mill("G1 X1 F100\nIF R1>1\nF0\nENDIF\nG1 X2\nM30\n").empty());
+  CHECK(Mill("G1 X1 F=R1\nG4 F0\nX2\nM30\n").empty());
+}
+
+TEST_CASE("radii that do not reach the end point") {
+  CHECK(Mill("G0 X0 Y0 F100\nG2 X40 Y0 CR=19\nM30\n") == "NC2005 2");
+  CHECK(Mill("G0 X0 Y0 F100\nG3 X0 Y40 CR=-19\nM30\n") == "NC2005 2");
+  CHECK(Lathe("G18 DIAMON\nG0 X20 Z0 F0.1\nG2 X40 Z0 CR=4\nM30\n") == "NC2005 3");
+  CHECK(Macro("O1\nG17 G90 G0 G54 X0. Y0.\nG2 X40. R19. F100.\nM30\n") == "NC2005 3");
+  CHECK(Mill("G0 X0 Y0 F100\nG2 X40 Y0 CR=20\nM30\n").empty());
+  CHECK(Lathe("G18 DIAMON\nG0 X20 Z0 F0.1\nG2 X40 Z0 CR=5\nM30\n").empty());
+  CHECK(Mill("G0 X=R1 Y0 F100\nG2 X40 Y0 CR=1\nM30\n").empty());
+}
+
+TEST_CASE("words that do not describe an arc") {
+  CHECK(Mill("G17 F100\nG2 X20 Y20\nM30\n") == "NC5005 2");
+  CHECK(Lathe("G18 F0.1\nG3 X20 Z-5\nM30\n") == "NC5005 2");
+  CHECK(Macro("O1\nG17 G90 F100.\nG2 X20. Y5.\nM30\n") == "NC5005 3");
+  CHECK(Mill("G17 F100\nG2 X20 I10 K0\nM30\n") == "NC1002 2");
+  CHECK(Lathe("G18 F0.1\nG2 Z-10 J5\nM30\n") == "NC1002 2");
+  CHECK(Macro("O1\nG18 G90 F100.\nG2 X20. J5.\nM30\n") == "NC1002 3");
+  CHECK(Mill("G17 F100\nG1 X20 CR=5\nM30\n") == "NC1002 2");
+  CHECK(Mill("G17 F100\nG0 X20 Y5 CR=5\nM30\n") == "NC1002 2");
+  CHECK(Lathe("G18 F0.1\nG1 Z-20 CR=5\nM30\n") == "NC1002 2");
+  CHECK(Mill("G17 F100\nG1 X10 AP=30 RP=5\nM30\n") == "NC1013 2");
+  CHECK(Mill("G17\nG0 AP=30 Y5\nM30\n") == "NC1013 2");
+  CHECK(Lathe("G18\nG0 AP=30 RP=5 X10\nM30\n") == "NC1013 2");
+  CHECK(Mill("G17 F100\nG2 X20 Y0 I10\nG3 I=AC(0) J=AC(0)\nG2 X1 Y1 AR=90\nG2 AP=90 RP=20 Z1\nCIP X1 I1=3 J1=4\nM30\n")
+            .empty());
+  CHECK(Mill("G17 F100\nG2 X20 Y0 I10\nTRANS X10 Y5\nG1 Z-5 AP=3 RP=4\nG110 X1 Y1\nM30\n").empty());
+  CHECK(Lathe("G18 F0.1\nG33 Z-20 K2\nG2 X20 Z-3 I0 K-3\nM30\n").empty());
+  // Which plane is in force is not known here.
+  CHECK(Sub("PROC SUB1\nG2 X20 Z-20 K10 F100\nM17\n").empty());
+}
+
 }  // namespace ncport::check

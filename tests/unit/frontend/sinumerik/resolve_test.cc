@@ -136,4 +136,48 @@ TEST_CASE("a name declared twice") {
   CHECK(result.Findings() == "NC2002 2:10 aa_a is declared twice\n");
 }
 
+TEST_CASE("functions of texts want a text, the others a number") {
+  ReadResult result;
+  ReadInto(result, "R1=STRLEN(55)\nR1=SIN(\"30\")\nR1=NUMBER(R2)\nR1=STRLEN(\"AB\")+INDEX(\"AB\",\"B\")\nR1=ABS(-1)\n");
+  CHECK(result.Findings() ==
+        "NC2004 1:11 a whole number where a text is needed\n"
+        "NC2004 2:8 a text where a number is needed\n"
+        "NC2004 3:11 a number where a text is needed\n");
+}
+
+TEST_CASE("more start values than elements are doubtful") {
+  ReadResult result;
+  ReadInto(result,
+           "DEF REAL A_1[2]=(1,2,3)\nDEF INT B_1[2,2]=SET(1,2,3,4,5)\nDEF INT C_1[2]=(1,2)\nDEF INT D_1[3]=(1,2)\n"
+           "DEF INT E_1[2]=REP(4)\n");
+  CHECK(result.Findings() ==
+        "NC2010 1:22 index 2 of A_1 is outside 0 to 1\n"
+        "NC2010 2:30 index 4 of B_1 is outside 0 to 3\n");
+  CHECK_FALSE(result.sink.HasErrors());
+}
+
+TEST_CASE("what a refused definition would have declared has no further finding") {
+  ReadResult result;
+  ReadInto(result, "DEFINE ON_1 M3 M8\nON_1\nSUB_B(1,2)\nM30\n%_N_SUB_B_SPF\nPROC SUB_B(REAL AA, BB)\nR1=AA+BB\nM17\n");
+  CHECK(result.Findings() ==
+        "NC1003 1:13 expected AS, found M3\n"
+        "NC1003 6:21 expected a type, found BB\n");
+}
+
+TEST_CASE("a misspelled end of a structure is its end") {
+  ReadResult result;
+  ReadInto(result,
+           "LOOP\nIF R1>5 GOTOF AB\nENDLOP\nAB: G0 X1\nWHILE R1<5\nR1=R1+1\nWEND\nREPEAT\nR1=R1-1\nENDREPEAT\n");
+  CHECK(result.Findings() ==
+        "NC1014 10:1 unknown word ENDREPEAT\n"
+        "NC1014 7:1 unknown word WEND\n"
+        "NC1014 3:1 unknown word ENDLOP\n");
+}
+
+TEST_CASE("a program of the name of a misspelled end is called where the structure has its end") {
+  ReadResult result;
+  ReadInto(result, "LOOP\nENDLOP\nENDLOOP\nM30\n%_N_ENDLOP_SPF\nM17\n");
+  CHECK(result.Findings().empty());
+}
+
 }  // namespace ncport::frontend::sinumerik

@@ -1,0 +1,116 @@
+#include <fmt/format.h>
+
+#include "check/motion_words.h"
+#include "check/rules.h"
+
+namespace ncport::check {
+namespace {
+
+using ir::WordOp;
+
+constexpr std::string_view kAxisLetters = "XYZ";
+constexpr std::string_view kCenterLetters = "IJK";
+
+/// Axis that stands on the plane, 0 to 2; 3 = not known.
+std::size_t NormalOf(ir::Plane plane) {
+  switch (plane) {
+    case ir::Plane::kXY:
+      return 2;
+    case ir::Plane::kZX:
+      return 1;
+    case ir::Plane::kYZ:
+      return 0;
+    default:
+      return 3;
+  }
+}
+
+bool IsArc(ir::Motion motion) { return motion == ir::Motion::kArcCw || motion == ir::Motion::kArcCcw; }
+
+/// What describes the path in one block.
+struct PathWords {
+  const ir::Word* axis_in_plane = nullptr;
+  const ir::Word* center_outside = nullptr;  // along the axis that stands on the plane
+  const ir::Word* radius = nullptr;
+  const ir::Word* polar = nullptr;
+  bool describes_arc = false;  // a centre, radius, angle or point that says which arc
+  bool other = false;          // a word that this does not judge
+};
+
+PathWords WordsOf(const ir::Module& module, const ir::Block& block, std::size_t normal) {
+  PathWords words;
+  for (const ir::WordId id : block.words) {
+    const ir::Word& word = module.words[id];
+    switch (word.op) {
+      case WordOp::kAxis:
+        if (word.index < 3 && word.index != normal && words.axis_in_plane == nullptr) words.axis_in_plane = &word;
+        break;
+      case WordOp::kCenter:
+        if (word.index == normal && words.center_outside == nullptr) words.center_outside = &word;
+        words.describes_arc = true;
+        break;
+      case WordOp::kRadius:
+        words.radius = &word;
+        words.describes_arc = true;
+        break;
+      case WordOp::kPolarAngle:
+      case WordOp::kPolarRadius:
+        words.polar = &word;
+        words.describes_arc = true;
+        break;
+      case WordOp::kOpeningAngle:
+      case WordOp::kVia:
+        words.describes_arc = true;
+        break;
+      case WordOp::kAxisComputed:
+      case WordOp::kContourAngle:
+      case WordOp::kVerbatim:
+      case WordOp::kComputedG:
+        words.other = true;
+        break;
+      default:
+        break;
+    }
+  }
+  return words;
+}
+
+}  // namespace
+
+void CheckArcWords(const Subject& subject, ir::ProgramId program, diag::Sink& sink) {
+  constexpr std::string_view kPlanes[] = {"YZ: J and K", "ZX: K and I", "XY: I and J"};  // by normal
+  const ir::Module& module = subject.module;
+  for (const ir::BlockId id : module.programs[program].blocks) {
+    const ir::Block& block = module.blocks[id];
+    if (block.words.Empty() || (block.flags & ir::Block::kRefused) != 0) continue;
+    const ir::Word* moving = MovingWord(module, block);
+    if (moving == nullptr) continue;
+    const ir::ModalState modes = subject.modal.At(program, id);
+    const std::size_t normal = NormalOf(modes.plane);
+    if (normal > 2) continue;
+    const PathWords words = WordsOf(module, block, normal);
+    if (words.other) continue;
+    if (words.polar != nullptr && words.axis_in_plane != nullptr) {
+      sink.Report(diag::Code::kWordConflict, subject.PlaceOf(id, *words.axis_in_plane), "the polar words",
+                  kAxisLetters.substr(words.axis_in_plane->index, 1))
+          .help = "radius and angle alone describe the point in the plane; only the third axis may stand beside them";
+      continue;
+    }
+    if (!IsArc(modes.motion)) {
+      const bool straight = modes.motion == ir::Motion::kLinear || modes.motion == ir::Motion::kRapid;
+      if (!straight || words.radius == nullptr) continue;
+      sink.ReportAs(diag::Severity::kWarning, diag::Code::kUnexpectedText, subject.PlaceOf(id, *words.radius),
+                    "radius of an arc")
+          .help = "the block moves on a straight line: is the arc word missing?";
+    } else if (words.center_outside != nullptr) {
+      sink.Report(diag::Code::kUnexpectedText, subject.PlaceOf(id, *words.center_outside),
+                  kCenterLetters.substr(words.center_outside->index, 1))
+          .help = fmt::format("the centre of an arc lies in the active plane, {}", kPlanes[normal]);
+    } else if (!words.describes_arc && words.axis_in_plane != nullptr) {
+      sink.Report(diag::Code::kArcIncomplete, subject.PlaceOf(id, *moving)).help =
+          "write the centre or the radius; a straight line needs its own motion word";
+    }
+  }
+}
+
+}  // namespace ncport::check

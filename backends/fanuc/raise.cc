@@ -369,13 +369,20 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   NameMotions(input, out);
   ok = ArrangeSpindle(input, out, sink) && ok;
   ok = (profile.IsLathe() ? MapTools(input, out, sink) : MapMillTools(input, out, sink)) && ok;
-  ok = ShiftsToLocal(input, out, sink) && ok;
+  const bool worked_in = FramesAreWorkedIn(input, out);
+  FramesToComments(out, worked_in);
+  if (!worked_in) ok = ShiftsToLocal(input, out, sink) && ok;
   ok = MapAlarms(input, out, sink) && ok;
   AbsoluteDimensionsConfig dimensions;
   dimensions.diameter_axis = profile.diameter.Is(dialects::DiameterRule::kYes) ? 0 : 0xFF;
   dimensions.sub_entry = entry;
   dimensions.target = profile.name;
   dimensions.declared = DeclaredRanges(input, module);
+  dimensions.work_frames_in = worked_in;
+  for (const ir::ProgramId program : input.source->programs.Ids()) {
+    const bool split_up = std::ranges::any_of(split.programs, [&](const auto& p) { return p.whole == program; });
+    dimensions.frames.restores.push_back(input.source->programs[program].saves_modal_state && !split_up);
+  }
   ok = AbsoluteDimensions(module, machine, dimensions, sink) && ok;
   ok = ThreadLeads(input, out, sink) && ok;
   ok = RoundFeeds(input, out, sink) && ok;  // while the blocks still say which of them are threads

@@ -64,7 +64,71 @@ Word Assignment(ExprId place, ExprId value) {
   return word;
 }
 
+/// The words as they were written; a value that is no number is left out.
+std::string Spelled(const Module& module, const Block& block) {
+  std::string text;
+  for (const WordId id : block.words) {
+    const Word& word = module.words[id];
+    const std::string_view name = word.op == WordOp::kAxis && word.index < ir::kLetterAxes
+                                      ? std::string_view("XYZABCUVW").substr(word.index, 1)
+                                      : module.View(module.spellings[word.spelling].text);
+    text += fmt::format("{}{}", text.empty() ? "" : " ", name);
+    const ir::transform::LinearForm value =
+        word.value.Valid() ? ir::transform::FormOf(module, word.value) : ir::transform::LinearForm{};
+    if (word.value.Valid()) text += value.IsConstant() ? fmt::format("{:.6g}", value.constant) : "..";
+  }
+  return text;
+}
+
 }  // namespace
+
+bool FramesAreWorkedIn(const RaiseInput& input, const Translation& out) {
+  const Module& module = out.module;
+  bool adds = false;
+  std::set<std::uint32_t> holders;
+  for (const ProgramId program : module.programs.Ids()) {
+    for (const BlockId id : module.programs[program].blocks) {
+      const Word* frame = FrameWord(module, id);
+      if (frame == nullptr) continue;
+      const auto op = static_cast<FrameOp>(frame->index);
+      if (op >= FrameOp::kLocalShift) return false;
+      holders.insert(program.value);
+      adds = adds || Adds(*frame);
+      if (op != FrameOp::kTranslate && op != FrameOp::kAddTranslate && op != FrameOp::kReset) return true;
+      if (program.value < input.source->programs.Size() && input.source->programs[program].saves_modal_state)
+        return true;
+      for (const WordId word : module.blocks[id].words) {
+        if (module.words[word].op == WordOp::kAxis && module.words[word].index == 0 && input.profile->IsLathe())
+          return true;
+      }
+    }
+  }
+  return adds && (holders.size() > 1 || module.programs[ProgramId{*holders.begin()}].kind != ir::ProgramKind::kMain);
+}
+
+void FramesToComments(Translation& out, bool frames) {
+  Module& module = out.module;
+  bool any = false;
+  for (const ProgramId program : module.programs.Ids()) {
+    for (const BlockId id : module.programs[program].blocks) {
+      Block& block = module.blocks[id];
+      const bool frame = frames && FrameWord(module, id) != nullptr;
+      bool pole = false;
+      for (const WordId word : block.words) pole = pole || module.words[word].op == WordOp::kPole;
+      if (!frame && !pole) continue;
+      any = any || frame;
+      ir::Comment comment;
+      comment.text = module.strings.Intern(Spelled(module, block));
+      comment.place = block.comments.Empty() ? ir::CommentPlace::kEndOfBlock : ir::CommentPlace::kOwnLine;
+      std::vector<ir::Comment> comments{comment};
+      for (const ir::CommentId old : block.comments) comments.push_back(module.comments[old]);
+      block.comments = {static_cast<std::uint32_t>(module.comments.Size()),
+                        static_cast<std::uint32_t>(comments.size())};
+      for (const ir::Comment& each : comments) module.comments.Add(each);
+    }
+  }
+  if (any) out.added.emplace_back("no words for the frames of the source: they are worked into the coordinates");
+}
 
 bool ShiftsToLocal(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   Module& module = out.module;

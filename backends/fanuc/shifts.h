@@ -5,6 +5,13 @@
 
 namespace ncport::backends::fanuc {
 
+/// G52 cannot say the frames of the source: they turn, scale or mirror, shift X of a lathe, or add up across programs
+/// or under SAVE. They are worked into the coordinates.
+bool FramesAreWorkedIn(const RaiseInput& input, const Translation& out);
+
+/// Words that vanish into the coordinates (frames if `frames`, poles) stay as comments where they stood.
+void FramesToComments(Translation& out, bool frames);
+
 /// After it each Frame word is kTranslate with every axis that the module shifts at all, in mm. Added shifts are summed
 /// up in locals of the main program; a rotation, scale or mirror, and sums across calls, are refused. Run before
 /// AbsoluteDimensions, which drops the units.

@@ -113,6 +113,7 @@ void DimensionPass::FindEffects() {
           if (word.op == WordOp::kPolarAngle || word.op == WordOp::kPolarRadius || word.op == WordOp::kPole)
             now.slots = kAllSlots;
           if (word.op == WordOp::kPlane) now.slots |= kPolarSlots;
+          if (word.op == WordOp::kFrame) now.slots |= kLinearSlots | kShiftSlots;
           if (word.op == WordOp::kAssign) {
             const Expr& place = module_.exprs[word.Extra<ExprId>()];
             const bool own = (place.op == ExprOp::kVariable || place.op == ExprOp::kElement) &&
@@ -196,7 +197,7 @@ Step DimensionPass::StepOf(BlockId id, Slot slot) const {
     const SlotMask slots = callee.Valid() ? effects_[callee.value].slots : kAllSlots;
     if (slots >> slot & 1U) return Step::kLost;
   }
-  return slot < kMaxAxes ? AxisStep(id, slot) : PolarStep(id, slot);
+  return slot < kMaxAxes ? AxisStep(id, slot) : slot < kShift ? PolarStep(id, slot) : ShiftStep(id, slot);
 }
 
 Step DimensionPass::AxisStep(BlockId id, std::uint8_t axis) const {
@@ -207,6 +208,9 @@ Step DimensionPass::AxisStep(BlockId id, std::uint8_t axis) const {
     const bool named = word != nullptr && !Has(module_, block, WordOp::kContourAngle);
     return named ? Step::kAbsolute : Step::kLost;
   }
+  if (frames_.Any() && FrameWord(id) != nullptr && (axis < 3 || word == nullptr))
+    return axis < 3 ? Step::kComputed : Step::kNone;
+  if (LosesUnderFrame(id, axis)) return Step::kLost;
   if (Has(module_, block, WordOp::kFrame) || Has(module_, block, WordOp::kWorkOffset) ||
       Has(module_, block, WordOp::kPresetPosition)) {
     // The zero point moves: what the axis stands at is another number now.
@@ -231,7 +235,7 @@ Step DimensionPass::AxisStep(BlockId id, std::uint8_t axis) const {
 }
 
 bool DimensionPass::UsesSlot(BlockId id, Slot slot) const {
-  if (UsesForPlane(id, slot) || StepOf(id, slot) == Step::kIncremental) return true;
+  if (UsesForPlane(id, slot) || UsesForFrame(id, slot) || StepOf(id, slot) == Step::kIncremental) return true;
   for (const WordId word : module_.blocks[id].words) {
     const Word& center = module_.words[word];
     if (center.op == WordOp::kCenter && center.index == slot && center.mode == ValueMode::kAbsolute) return true;
@@ -261,7 +265,7 @@ void DimensionPass::FindLive() {
         if (edge.to.Valid()) behind |= live_[IndexOf(edge.to)];
         if (edge.kind == analysis::EdgeKind::kComputed) behind = kAllSlots;
       }
-      const SlotMask now = uses[i] | (behind & ~sets[i]);
+      const SlotMask now = uses[i] | (behind & ~sets[i]) | LiveThroughFrame(blocks_[i], behind);
       changed = changed || now != live_[i];
       live_[i] = now;
     }
@@ -294,10 +298,11 @@ void DimensionPass::FindCarryLive() {
 }
 
 ExprId DimensionPass::Held(Slot slot) {
-  static constexpr std::string_view kPolarNames[] = {"POLE_1", "POLE_2", "POLAR_ANGLE", "POLAR_RADIUS"};
+  static constexpr std::string_view kOtherNames[] = {"POLE_1",  "POLE_2",  "POLAR_ANGLE", "POLAR_RADIUS",
+                                                     "SHIFT_X", "SHIFT_Y", "SHIFT_Z"};
   if (!held_[slot].Valid()) {
     const std::string name =
-        slot < kMaxAxes ? fmt::format("POS_{}", kAxisNames[slot]) : std::string(kPolarNames[slot - kPoleFirst]);
+        slot < kMaxAxes ? fmt::format("POS_{}", kAxisNames[slot]) : std::string(kOtherNames[slot - kPoleFirst]);
     held_[slot] = NewLocal(module_, program_, name, Type::kReal);
   }
   return make_.Variable(held_[slot]);
@@ -481,6 +486,8 @@ Slots DimensionPass::EntrySlots() const {
     slots[kPoleFirst] = {SlotValue::Kind::kKnown, {}};
     slots[kPoleSecond] = {SlotValue::Kind::kKnown, {}};
   }
+  const bool framed = blocks_.count != 0 && !frames_.Before(program_, blocks_[0]).untouched;
+  for (std::uint8_t axis = 0; axis < 3 && !framed; ++axis) slots[kShift + axis] = {SlotValue::Kind::kKnown, {}};
   return slots;
 }
 
@@ -581,6 +588,7 @@ void DimensionPass::RewriteMachineWords(BlockId id) {
 void DimensionPass::RewriteWords(BlockId id, const Slots& in) {
   if (Has(module_, module_.blocks[id], WordOp::kMachineCoords)) return RewriteMachineWords(id);
   if (plane_words_[IndexOf(id)].kind == PlaneWords::Kind::kPole) return RemovePole(id, in);
+  if (config_.work_frames_in && FrameWord(id) != nullptr) return RemoveFrame(id);
   if (!AxisWordsAreMoves(module_, module_.blocks[id])) return;
   const ModalState state = flow_.At(program_, id);
   std::vector<Word> words;
@@ -602,6 +610,7 @@ void DimensionPass::RewriteWords(BlockId id, const Slots& in) {
     if (word.op == WordOp::kAxis) words.back().mode = ValueMode::kAbsolute;
   }
   if (plane_words_[IndexOf(id)].Moves() && !LowerPlaneWords(id, in, words)) return;
+  if (config_.work_frames_in && frames_.Any() && !ApplyFrame(id, in, words)) return;
   rewritten_.emplace_back(id, std::move(words));
 }
 
@@ -635,6 +644,7 @@ bool DimensionPass::RunProgram(ProgramId program) {
   held_ = {};
   carried_.assign(blocks_.count, 0);
   FindPlaneWords();
+  FindSenses();
   FindLive();
   Flow();
   editor_.emplace(module_, program, "absolute_dimensions");

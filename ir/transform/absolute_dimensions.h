@@ -6,6 +6,10 @@
 // What only the source has is written as end points and centres: arcs by opening angle or intermediate point, polar
 // words about their pole. Where that needs a start point, a pole or a radius that is not known, it is refused.
 //
+// Programmable frames can be worked into the coordinates: then a block has the words of all axes that its move changes,
+// arcs their centres, senses and sizes as the frame makes them. A frame that is not the same on every way to a move, a
+// computed angle or factor, and what keeps no circle a circle are refused.
+//
 // Afterwards all Axis words are kAbsolute and all Center words kStep (from the start point, radius); Distance,
 // Diameter, OpeningAngle, Via, Pole and polar words are gone, and lengths are mm.
 #pragma once
@@ -18,6 +22,7 @@
 #include "ir/analysis/value_range.h"
 #include "ir/machine.h"
 #include "ir/module.h"
+#include "ir/transform/frame_flow.h"
 
 namespace ncport::ir::transform {
 
@@ -26,6 +31,8 @@ struct AbsoluteDimensionsConfig {
   ModalState sub_entry;                           // state of subprograms that nothing in the module calls ([entry])
   std::vector<analysis::DeclaredRange> declared;  // what is promised of parameters
   std::string_view target;                        // its name, for findings
+  bool work_frames_in = false;  // frames go into the coordinates, their words away; else they stay where they are
+  FrameFlowOptions frames;
 };
 
 /// All programs of the module. An increment from a position that is not known, and a word under a mode that is not one

@@ -325,7 +325,12 @@ std::optional<LinearForm> DimensionPass::Computed(BlockId id, Slot slot, const S
       if (!pole) return std::nullopt;
       return slot == kPoleFirst ? pole->u : pole->v;
     }
+    case kShift:
+    case kShift + 1:
+    case kShift + 2:
+      return NewShift(id, static_cast<std::uint8_t>(slot - kShift), in);
     default: {
+      if (FrameWord(id) != nullptr) return SeenFromNewFrame(id, slot, in);
       const std::optional<PlanePoint> end = EndOfPlane(id, in);
       if (!end) return std::nullopt;
       return AsTarget(slot, slot == plane.first ? end->u : end->v);

@@ -1,5 +1,6 @@
 // The inside of absolute_dimensions.h: what its parts share. Flow of positions and axis words are in
-// absolute_dimensions.cc, arcs and polar words in absolute_plane.cc.
+// absolute_dimensions.cc, arcs and polar words in absolute_plane.cc, frames in
+// absolute_frames.cc.
 #pragma once
 
 #include <array>
@@ -15,6 +16,7 @@
 #include "ir/analysis/modal_state.h"
 #include "ir/builder.h"
 #include "ir/transform/absolute_dimensions.h"
+#include "ir/transform/frame_flow.h"
 #include "ir/transform/linear_form.h"
 #include "ir/transform/plane_geometry.h"
 #include "ir/transform/program_editor.h"
@@ -22,24 +24,28 @@
 namespace ncport::ir::transform {
 
 /// What outlives a block: the positions of the axes (0 to kMaxAxes - 1), and of polar words the pole, along the first
-/// and the second axis of the plane, the angle and the radius.
+/// and the second axis of the plane, the angle and the radius; and the shift of the programmable frame.
 using Slot = std::uint8_t;
 inline constexpr Slot kPoleFirst = kMaxAxes;
 inline constexpr Slot kPoleSecond = kMaxAxes + 1;
 inline constexpr Slot kPolarAngle = kMaxAxes + 2;
 inline constexpr Slot kPolarRadius = kMaxAxes + 3;
-inline constexpr Slot kSlots = kMaxAxes + 4;
+inline constexpr Slot kShift = kMaxAxes + 4;  // X, Y and Z of the programmable frame
+inline constexpr Slot kSlots = kMaxAxes + 7;
 using SlotMask = std::uint32_t;  // bit per slot
 constexpr SlotMask MaskOf(Slot slot) { return SlotMask{1} << slot; }
 inline constexpr SlotMask kAllSlots = MaskOf(kSlots) - 1;
 inline constexpr SlotMask kPolarSlots =
     MaskOf(kPoleFirst) | MaskOf(kPoleSecond) | MaskOf(kPolarAngle) | MaskOf(kPolarRadius);
 
+inline constexpr SlotMask kLinearSlots = 7;  // X Y Z
+inline constexpr SlotMask kShiftSlots = SlotMask{7} << kShift;
+
 /// The value of a slot on arrival at a block.
 struct SlotValue {
   enum class Kind : std::uint8_t { kNoWay, kUnknown, kKnown };
   Kind kind = Kind::kNoWay;
-  LinearForm form;  // axes in the target's terms: diameter or radius, mm; the pole as radius, mm
+  LinearForm form;  // axes in the target's terms: diameter or radius, mm; pole and shift as radius, mm
   [[nodiscard]] bool Known() const { return kind == Kind::kKnown; }
 };
 using Slots = std::array<SlotValue, kSlots>;
@@ -89,7 +95,8 @@ class DimensionPass {
         make_(module),
         graphs_(module),
         calls_(module),
-        flow_(module, source, graphs_, calls_, {source.start, config.sub_entry}) {}
+        flow_(module, source, graphs_, calls_, {source.start, config.sub_entry}),
+        frames_(module, source, graphs_, calls_, flow_, config.frames) {}
 
   bool Run();
 
@@ -110,8 +117,8 @@ class DimensionPass {
   [[nodiscard]] bool TriggersModal(ProgramId program, BlockId block) const;
   bool Join(BlockId block, Slots& at, const Slots& from);
   [[nodiscard]] Slots EntrySlots() const;
-  /// Slots that need to be followed: without polar words only the axes.
-  [[nodiscard]] Slot SlotsUsed() const { return polar_ ? kSlots : kMaxAxes; }
+  /// Slots that need to be followed: without polar words and frames only the axes.
+  [[nodiscard]] Slot SlotsUsed() const { return frames_.Any() ? kSlots : polar_ ? kShift : kMaxAxes; }
 
   // Values.
   struct Scale {
@@ -174,6 +181,27 @@ class DimensionPass {
   [[nodiscard]] bool Within(BlockId block, const Word& word, double low, double high) const;
   void FindRanges();
 
+  // Frames.
+  [[nodiscard]] const Word* FrameWord(BlockId block) const;
+  [[nodiscard]] Step ShiftStep(BlockId block, Slot slot) const;
+  [[nodiscard]] bool UsesForFrame(BlockId block, Slot slot) const;
+  [[nodiscard]] SlotMask LiveThroughFrame(BlockId block, SlotMask behind) const;
+  /// A move that leaves an axis behind at an unknown place takes those with it that a rotation ties to it.
+  [[nodiscard]] bool LosesUnderFrame(BlockId block, std::uint8_t axis) const;
+  /// X Y Z words of the block, named or computed, that move.
+  [[nodiscard]] SlotMask MovedLinear(BlockId block) const;
+  [[nodiscard]] std::optional<LinearForm> ShiftBefore(BlockId block, std::uint8_t axis, const Slots& in) const;
+  std::optional<LinearForm> NewShift(BlockId block, std::uint8_t axis, const Slots& in);
+  std::optional<LinearForm> SeenFromNewFrame(BlockId block, std::uint8_t axis, const Slots& in);
+  void FindSenses();
+  void RemoveFrame(BlockId block);
+  bool ApplyFrame(BlockId block, const Slots& in, std::vector<Word>& words);
+  bool FramedAxes(BlockId block, const Slots& in, const FrameMatrix& matrix, std::vector<Word>& words);
+  /// An arc by its radius whose ends the frame moves off their decimals gets a centre: a radius would turn small errors
+  /// of the ends into large ones of the centre.
+  bool RadiusToCenter(BlockId block, const Slots& in, std::vector<Word>& words);
+  void FramedCenters(const FrameMatrix& matrix, std::uint8_t first, std::uint8_t second, std::vector<Word>& words);
+
   Module& module_;
   const Machine& source_;
   const AbsoluteDimensionsConfig& config_;
@@ -182,6 +210,7 @@ class DimensionPass {
   analysis::FlowGraphs graphs_;
   analysis::CallGraph calls_;
   analysis::ModalFlow flow_;
+  FrameFlow frames_;
   std::vector<Effects> effects_;                        // per program
   Effects modal_;                                       // of the programs that modal calls run
   std::map<std::uint32_t, analysis::Interval> ranges_;  // values of words that need it; by word
@@ -191,6 +220,7 @@ class DimensionPass {
   // Of the program at hand.
   ProgramId program_;
   IdRange<BlockId> blocks_;
+  bool names_senses_ = false;            // arcs turn the other way somewhere: each one names its sense
   std::vector<PlaneWords> plane_words_;  // per block
   std::vector<SlotMask> live_;           // per block: slots whose value on arrival is used
   std::vector<SlotMask> carry_live_;     // slots whose held value is used behind the block

@@ -30,6 +30,16 @@ PlanePoint CenterByOpening(const Module& module, const PlanePoint& way, double d
   return {Mix(module, way.u, 0.5, way.v, -height), Mix(module, way.v, 0.5, way.u, height)};
 }
 
+std::optional<PlanePoint> CenterByRadius(double u, double v, double radius, bool clockwise) {
+  const double chord = std::hypot(u, v);
+  const double size = std::fabs(radius);
+  if (chord <= kSamePoint || size < chord / 2) return std::nullopt;
+  // To the left of the way for a short counter-clockwise arc.
+  const double height = std::sqrt((size - chord / 2) * (size + chord / 2)) / chord;
+  const double side = clockwise == (radius < 0) ? height : -height;
+  return PlanePoint{{u / 2 - v * side, {}}, {v / 2 + u * side, {}}};
+}
+
 PlanePoint EndByOpening(const Module& module, const PlanePoint& center, double degrees, bool clockwise) {
   // center + turned(-center)
   const double c = ops::Cos(degrees);
@@ -62,8 +72,8 @@ std::optional<ThroughArc> ArcThroughPoints(double via_u, double via_v, double en
   if (via2 <= kSamePoint * kSamePoint || end2 <= kSamePoint * kSamePoint) return std::nullopt;
   if (std::fabs(cross) <= 1e-12 * std::sqrt(via2 * end2)) return std::nullopt;
   // + 0.0: no negative zero is printed.
-  return ThroughArc{(end_v * via2 - via_v * end2) / (2 * cross) + 0.0, (via_u * end2 - end_u * via2) / (2 * cross) + 0.0,
-                    cross < 0};
+  return ThroughArc{(end_v * via2 - via_v * end2) / (2 * cross) + 0.0,
+                    (via_u * end2 - end_u * via2) / (2 * cross) + 0.0, cross < 0};
 }
 
 }  // namespace ncport::ir::transform

@@ -14,6 +14,9 @@ struct PlanePoint {
 
 /// Centre, seen from the start, of the arc to `way` (end - start) that opens by `degrees` (0 < degrees < 360).
 PlanePoint CenterByOpening(const Module& module, const PlanePoint& way, double degrees, bool clockwise);
+/// Centre, seen from the start, of the arc to (u, v) with this radius, negative for more than 180 degrees. None: there
+/// is no such arc.
+std::optional<PlanePoint> CenterByRadius(double u, double v, double radius, bool clockwise);
 /// End, seen from the start, of the arc about `center` (seen from the start) that opens by `degrees`.
 PlanePoint EndByOpening(const Module& module, const PlanePoint& center, double degrees, bool clockwise);
 /// The point at `radius` and `angle` about `pole`. A constant angle leaves sums, another one COS and SIN.

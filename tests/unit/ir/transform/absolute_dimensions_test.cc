@@ -8,18 +8,21 @@ namespace ncport::ir::transform {
 namespace {
 
 /// In texts here R[1] is a cell; types, and that a number was computed, are left out.
-std::string Absolute(const std::string& blocks, diag::Sink& sink) {
+std::string Absolute(const std::string& blocks, diag::Sink& sink, bool work_frames_in = false) {
   const std::string cells = std::regex_replace(blocks, std::regex("R\\["), "cell:real R[");
   const std::string text =
       test::After("ncport-ir 1\nfile m\nspace R 0..99 real kept all zero\nprogram M main @m:0\n" + cells, sink,
-                  [](Module& module, diag::Sink& findings) {
+                  [&](Module& module, diag::Sink& findings) {
                     Machine machine;
+                    AbsoluteDimensionsConfig config;
+                    config.work_frames_in = work_frames_in;
+                    machine.start.comp = CutterComp::kOff;
                     machine.start.motion = Motion::kLinear;
                     machine.start.plane = Plane::kXY;
                     machine.start.distance = Distance::kAbsolute;
                     machine.start.units = Units::kMm;
                     machine.start.diameter = Diameter::kRadius;
-                    return AbsoluteDimensions(module, machine, {}, findings);
+                    return AbsoluteDimensions(module, machine, config, findings);
                   });
   const std::string numbers = std::regex_replace(text, std::regex("literal\\(([-0-9.]+), computed\\)"), "$1");
   return std::regex_replace(numbers, std::regex("cell:real |:(real|int)"), "");
@@ -151,6 +154,101 @@ TEST_CASE("polar words without a known pole, angle or radius are refused") {
     CAPTURE(blocks);
     diag::Sink sink;
     Absolute(std::string(blocks), sink);
+    CHECK(sink.HasErrors());
+  }
+}
+
+TEST_CASE("a position is followed through a shift that stays in the program (sinumerik-8.2)") {
+  diag::Sink sink;
+  CHECK(Absolute("  @m:1 : axis X = 4; axis Y = 1\n"
+                 "  @m:2 : frame translate; axis X = 50\n"
+                 "  @m:3 : axis X incremental = 1\n"
+                 "  @m:4 : frame add-translate; axis X = R[1]\n"
+                 "  @m:5 : axis X incremental = 1\n",
+                 sink) ==
+        "program M main\n"
+        "axis X absolute = 4; axis Y absolute = 1\n"
+        "frame translate; axis X = 50\n"
+        "axis X absolute = -45\n"
+        "frame add-translate; axis X = R[1]\n"
+        "axis X absolute = sub(negate(R[1]), 44)\n");
+}
+
+TEST_CASE("frames go into the coordinates, in the order in which they were added (sinumerik-8.7)") {
+  diag::Sink sink;
+  CHECK(Absolute("  @m:1 : axis X = 1; axis Y = 1\n"
+                 "  @m:2 : frame translate; axis X = 10\n"
+                 "  @m:3 : frame add-rotate; frame-angle = 90\n"
+                 "  @m:4 : frame add-translate; axis X = 5\n"
+                 "  @m:5 : axis X = 3; axis Y = 0\n"
+                 "  @m:6 : axis Y = 2\n"
+                 "  @m:7 : axis X incremental = 1\n"
+                 "  @m:8 : frame rotate\n"
+                 "  @m:9 : axis Y incremental = 1\n",
+                 sink, true) ==
+        "program M main\n"
+        "axis X absolute = 1; axis Y absolute = 1\n"
+        "axis X absolute = 10; axis Y absolute = 8\n"
+        "axis X absolute = 8\n"
+        "axis Y absolute = 9\n"
+        "axis Y absolute = 10\n");
+  CHECK_FALSE(sink.HasErrors());
+}
+
+TEST_CASE("a mirror turns arcs and the side of the cutter, a scale their size (sinumerik-8.7)") {
+  diag::Sink sink;
+  CHECK(Absolute("  @m:1 : axis X = 0; axis Y = 0\n"
+                 "  @m:2 : motion arc-cw; axis X = 4; axis Y = 4; center J step = 4\n"
+                 "  @m:3 : frame mirror; axis X = 0\n"
+                 "  @m:4 : frame add-scale; axis X = 2; axis Y = 2\n"
+                 "  @m:5 : comp left; motion linear; axis X = 5; axis Y = 5\n"
+                 "  @m:6 : motion arc-cw; axis X = 8; axis Y = 8; radius = -5\n"
+                 "  @m:7 : axis X = 8; axis Y = 2; center J step = -3\n",
+                 sink, true) ==
+        "program M main\n"
+        "axis X absolute = 0; axis Y absolute = 0\n"
+        "motion arc-cw; axis X absolute = 4; axis Y absolute = 4; center J step = 4\n"
+        "comp right; motion linear; axis X absolute = -10; axis Y absolute = 10\n"
+        "motion arc-ccw; axis X absolute = -16; axis Y absolute = 16; radius = -10\n"
+        "motion arc-ccw; axis X absolute = -16; axis Y absolute = 4; center I step = 0; center J step = -6\n");
+  CHECK_FALSE(sink.HasErrors());
+}
+
+TEST_CASE("an arc by its radius keeps its centre under a rotation") {
+  diag::Sink sink;
+  CHECK(Absolute("  @m:1 : frame rotate; frame-angle = 30\n"
+                 "  @m:2 : axis X = 0; axis Y = 0\n"
+                 "  @m:3 : motion arc-cw; axis X = 10; radius = 5\n",
+                 sink, true) ==
+        "program M main\n"
+        "axis X absolute = 0; axis Y absolute = 0\n"
+        "motion arc-cw; axis X absolute = 8.660254038; axis Y absolute = 5; center I step = 4.330127019; "
+        "center J step = 2.5\n");
+  CHECK_FALSE(sink.HasErrors());
+}
+
+TEST_CASE("frames that no coordinates can take are refused") {
+  for (const std::string_view blocks : {
+           // Another axis is not known.
+           "  @m:1 : frame rotate; frame-angle = 30\n  @m:2 : axis X = 1\n",
+           // A computed angle.
+           "  @m:1 : frame rotate; frame-angle = R[1]\n  @m:2 : axis X = 1; axis Y = 1\n",
+           // Not the same on every way.
+           "  @m:1 : jump forward label L = lt!tolerance:bool(R[1], 4)\n"
+           "  @m:2 : frame rotate; frame-angle = 30\n  @m:3 label L : axis X = 1; axis Y = 1\n",
+           // No circle any more.
+           "  @m:1 : axis X = 0; axis Y = 0\n  @m:2 : frame scale; axis X = 2\n"
+           "  @m:3 : motion arc-cw; axis X = 10; radius = 5\n",
+           // The sides of the cutter would be exchanged while it is on one.
+           "  @m:1 : axis X = 0; axis Y = 0; comp left\n  @m:2 : frame mirror; axis X = 0\n",
+           // A lead does not turn.
+           "  @m:1 : axis X = 0; axis Y = 0; axis Z = 0\n  @m:2 : frame rotate; frame-angle = 30\n"
+           "  @m:3 : motion thread; axis Z = 10; center K step = 1\n",
+           "  @m:1 : frame scale; axis X = 0\n  @m:2 : axis X = 1\n",
+       }) {
+    CAPTURE(blocks);
+    diag::Sink sink;
+    Absolute(std::string(blocks), sink, true);
     CHECK(sink.HasErrors());
   }
 }

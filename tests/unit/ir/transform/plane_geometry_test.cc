@@ -32,6 +32,22 @@ TEST_CASE("the centre of an opening angle lies at equal distance from both ends 
   }
 }
 
+TEST_CASE("the centre by a radius: short and long arcs of both senses") {
+  for (const bool clockwise : {false, true}) {
+    for (const double radius : {20.0, -20.0}) {
+      const std::optional<PlanePoint> center = CenterByRadius(30, -12, radius, clockwise);
+      REQUIRE(center);
+      const double u = center->u.constant, v = center->v.constant;
+      CHECK(std::hypot(u, v) == doctest::Approx(20));
+      CHECK(std::hypot(30 - u, -12 - v) == doctest::Approx(20));
+      const double across = 30 * v - -12 * u;  // > 0: the centre lies to the left of the way
+      CHECK((across > 0) == (clockwise == (radius < 0)));
+    }
+  }
+  CHECK_FALSE(CenterByRadius(30, 0, 14, false));
+  CHECK_FALSE(CenterByRadius(0, 0, 14, false));
+}
+
 TEST_CASE("a half circle has its centre in the middle of a chord of variables") {
   Module module;
   ExprBuilder e(module);

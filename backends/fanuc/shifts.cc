@@ -142,45 +142,24 @@ bool ShiftsToLocal(const RaiseInput& input, Translation& out, diag::Sink& sink) 
       const Word* frame = FrameWord(module, id);
       if (frame == nullptr) continue;
       holders.insert(program.value);
-      const auto refuse = [&](std::string_view what, std::string_view help = "") {
-        ok = false;
-        auto& finding = sink.Report(diag::Code::kNotExpressible, module.RangeOf(module.blocks[id], *frame), what,
-                                    input.profile->name);
-        if (!help.empty()) finding.help = help;
-      };
-      const auto op = static_cast<FrameOp>(frame->index);
-      if (op != FrameOp::kTranslate && op != FrameOp::kAddTranslate && op != FrameOp::kReset) {
-        refuse("a rotation, scale or mirror of the coordinates");
-        continue;
-      }
       adds = adds || Adds(*frame);
-      // The module's programs are those of the source, and splitting puts new ones behind them.
-      if (program.value < input.source->programs.Size() && input.source->programs[program].saves_modal_state)
-        refuse("a shift in a program with SAVE, which puts that of its caller back");
+      const auto refuse = [&](std::string_view what) {
+        ok = false;
+        sink.Report(diag::Code::kNotExpressible, module.RangeOf(module.blocks[id], *frame), what, input.profile->name);
+      };
+      if (static_cast<FrameOp>(frame->index) >= FrameOp::kLocalShift)
+        refuse("a rotation, scale or mirror of the coordinates");
       for (const WordId word_id : module.blocks[id].words) {
         const Word& word = module.words[word_id];
         if (word.op != WordOp::kAxis) continue;
         shifted = static_cast<std::uint16_t>(shifted | (1U << word.index));
         if (word.index >= kLinearAxes) refuse("a shift of a rotary or further axis");
-        if (input.profile->IsLathe() && word.index == 0) refuse("a shift of X on a lathe");
       }
     }
   }
   if (!ok || holders.empty()) return ok;
   if (shifted == 0) shifted = input.profile->IsLathe() ? 4 : 7;
   const ProgramId holder{*holders.begin()};
-  if (adds && (holders.size() > 1 || module.programs[holder].kind != ir::ProgramKind::kMain)) {
-    for (const std::uint32_t program : holders) {
-      for (const BlockId id : module.programs[ProgramId{program}].blocks) {
-        const Word* frame = FrameWord(module, id);
-        if (frame == nullptr || !Adds(*frame)) continue;
-        sink.Report(diag::Code::kNotExpressible, module.RangeOf(module.blocks[id], *frame),
-                    "a shift that is added to one of another program", input.profile->name)
-            .help = "use an absolute shift (TRANS), or keep all shifts in the main program";
-      }
-    }
-    return false;
-  }
   const ir::analysis::FlowGraphs graphs(module);
   const ir::analysis::CallGraph calls(module);
   const ir::analysis::ModalFlow flow(

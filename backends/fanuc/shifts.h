@@ -13,8 +13,8 @@ bool FramesAreWorkedIn(const RaiseInput& input, const Translation& out);
 void FramesToComments(Translation& out, bool frames);
 
 /// After it each Frame word is kTranslate with every axis that the module shifts at all, in mm. Added shifts are summed
-/// up in locals of the main program; a rotation, scale or mirror, and sums across calls, are refused. Run before
-/// AbsoluteDimensions, which drops the units.
+/// up in locals of the main program. Only for modules whose frames are not worked in. Run before AbsoluteDimensions,
+/// which drops the units.
 bool ShiftsToLocal(const RaiseInput& input, Translation& out, diag::Sink& sink);
 
 /// SETAL -> #3000 with a number of the profile's range; Translation::alarms is the map.

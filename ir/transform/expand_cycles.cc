@@ -1,16 +1,12 @@
 #include "ir/transform/expand_cycles.h"
 
 #include <cmath>
-#include <deque>
-#include <map>
 #include <optional>
 #include <set>
 #include <string_view>
 #include <vector>
 
-#include "ir/analysis/call_graph.h"
-#include "ir/analysis/cfg.h"
-#include "ir/analysis/modal_state.h"
+#include "ir/analysis/forward_flow.h"
 #include "ir/builder.h"
 #include "ir/transform/new_local.h"
 #include "ir/transform/program_editor.h"
@@ -21,31 +17,17 @@ namespace {
 
 constexpr std::uint32_t kUnset = 0xFFFFFFFFU, kOpen = 0xFFFFFFFEU;
 constexpr auto kNoCycle = static_cast<std::uint32_t>(Cycle::kNone);
+constexpr std::uint32_t kCallers = 0xFFFFFFFDU;  // none, or one of a caller that is not known
 
 enum Field : std::uint8_t { kLevel, kDepth, kStep, kDwell, kFields };
 
 /// What holds at a place: the cycle, and an expression for each of its data (a literal, or a local).
-struct State {
-  bool reached = false;
+struct Drilling {
   std::uint32_t cycle = kNoCycle;
   std::uint32_t fields[kFields] = {kUnset, kUnset, kUnset, kUnset};
   bool initial = false;  // the local holds the level at which the cycle began
-  bool operator==(const State&) const = default;
+  bool operator==(const Drilling&) const = default;
 };
-
-bool Join(State& into, const State& from) {
-  if (!from.reached) return false;
-  const State before = into;
-  if (!into.reached) {
-    into = from;
-    return true;
-  }
-  const auto join = [](std::uint32_t& a, std::uint32_t b) { a = a == b ? a : kOpen; };
-  join(into.cycle, from.cycle);
-  for (std::uint8_t i = 0; i < kFields; ++i) join(into.fields[i], from.fields[i]);
-  into.initial = into.initial && from.initial;
-  return into != before;
-}
 
 bool IsHole(std::uint32_t cycle) {
   return cycle >= static_cast<std::uint32_t>(Cycle::kDrill) && cycle <= static_cast<std::uint32_t>(Cycle::kBoreManual);
@@ -53,6 +35,41 @@ bool IsHole(std::uint32_t cycle) {
 
 class Pass {
  public:
+  // The data flow.
+  using State = Drilling;
+  [[nodiscard]] State Entry(ProgramId program) const {
+    return {.cycle = module_.programs[program].kind == ProgramKind::kMain ? kNoCycle : kCallers};
+  }
+  [[nodiscard]] State Unknown(ProgramId) const { return {.cycle = kOpen}; }
+  bool Join(BlockId, State& into, const State& from) const {
+    const State before = into;
+    const auto untouched = [](std::uint32_t cycle) { return cycle == kNoCycle || cycle == kCallers; };
+    const auto join = [](std::uint32_t& a, std::uint32_t b) { a = a == b ? a : kOpen; };
+    const bool callers = into.cycle != from.cycle && untouched(into.cycle) && untouched(from.cycle);
+    join(into.cycle, from.cycle);
+    if (callers) into.cycle = kCallers;
+    for (std::uint8_t i = 0; i < kFields; ++i) join(into.fields[i], from.fields[i]);
+    into.initial = into.initial && from.initial;
+    return into != before;
+  }
+  void Transfer(ProgramId program, BlockId id, State& state) {
+    program_ = program;
+    const ModalState at = flow_.At(program, id);
+    Store(PartsOf(id, NormalOf(at.plane), IsHole(state.cycle)), at.distance == Distance::kIncremental, state, nullptr);
+  }
+  /// Locals do not travel, nor do cycles: a call under one is refused where it stands. A modal call may run under one;
+  /// then moves of its program are.
+  [[nodiscard]] std::optional<State> Into(const analysis::CallSite&, analysis::CallMoment moment,
+                                          const State& at) const {
+    if (moment == analysis::CallMoment::kModalStart) return std::nullopt;
+    if (!IsHole(at.cycle)) return State{.cycle = at.cycle};
+    return moment == analysis::CallMoment::kModalRun ? Unknown({}) : State{};
+  }
+  [[nodiscard]] State Back(const analysis::CallSite&, const State& at, const State& exit) const {
+    if (exit.cycle == kCallers) return at;
+    return {.cycle = exit.cycle == kNoCycle ? kNoCycle : kOpen};
+  }
+
   Pass(Module& module, const Machine& source, const ExpandCyclesConfig& config, diag::Sink& sink)
       : module_(module),
         source_(source),
@@ -61,7 +78,9 @@ class Pass {
         make_(module),
         graphs_(module),
         calls_(module),
-        flow_(module, source, graphs_, calls_, {source.start, config.sub_entry}) {}
+        flow_(module, source, graphs_, calls_, {source.start, config.sub_entry}),
+        drilling_({module, source, graphs_, calls_, &flow_}, *this),
+        locals_(module.programs.Size()) {}
 
   bool Run() {
     bool any = false;
@@ -70,9 +89,8 @@ class Pass {
     for (const analysis::CallSite& site : calls_.AllSites()) {
       if (site.callee.Valid()) called_.insert(site.callee.value);
     }
-    for (const ProgramId program : module_.programs.Ids()) {
-      if (!module_.programs[program].blocks.Empty()) Expand(program);
-    }
+    drilling_.Run();
+    for (const ProgramId program : module_.programs.Ids()) Expand(program);
     return ok_;
   }
 
@@ -157,13 +175,14 @@ class Pass {
 
   ExprId Local(std::uint8_t field) {
     static constexpr std::string_view kNames[] = {"U_LEVEL", "U_DEPTH", "U_PECK", "U_DWELL"};
-    if (!locals_[field].Valid())
-      locals_[field] = make_.Variable(NewLocal(module_, program_, kNames[field], Type::kReal));
-    return locals_[field];
+    ExprId& local = locals_[program_.value].fields[field];
+    if (!local.Valid()) local = make_.Variable(NewLocal(module_, program_, kNames[field], Type::kReal));
+    return local;
   }
   ExprId Initial() {
-    if (!initial_.Valid()) initial_ = make_.Variable(NewLocal(module_, program_, "U_INITIAL", Type::kReal));
-    return initial_;
+    ExprId& local = locals_[program_.value].initial;
+    if (!local.Valid()) local = make_.Variable(NewLocal(module_, program_, "U_INITIAL", Type::kReal));
+    return local;
   }
 
   [[nodiscard]] std::optional<double> LiteralOf(ExprId id) const {
@@ -184,10 +203,10 @@ class Pass {
   /// Data of the block as expressions; `assigns`: what must be computed in front of it.
   void Store(const Parts& parts, bool incremental, State& state, std::vector<std::pair<ExprId, ExprId>>* assigns) {
     if (parts.cycle != kUnset) {
-      if (!IsHole(parts.cycle) || !IsHole(state.cycle)) state = {.reached = true};
+      if (!IsHole(parts.cycle) || !IsHole(state.cycle)) state = {};
       state.cycle = parts.cycle;
     } else if (parts.motion) {
-      state = {.reached = true};
+      state = {};
     }
     if (!IsHole(state.cycle)) return;
     // A place, a depth or a level begins the first hole: there the initial level is taken.
@@ -218,50 +237,32 @@ class Pass {
   }
 
   void Expand(ProgramId program) {
-    program_ = program;
-    for (ExprId& local : locals_) local = {};
-    initial_ = {};
     const IdRange<BlockId> blocks = module_.programs[program].blocks;
-    const analysis::Cfg& cfg = graphs_.Of(program);
-    std::map<std::uint32_t, State> states;
-    std::deque<BlockId> work;
-    const auto arrive = [&](BlockId to, const State& state) {
-      if (Join(states[to.value], state)) work.push_back(to);
-    };
-    State start;
-    start.reached = true;
-    // Calls under a cycle are refused, so a called program begins without one.
-    if (module_.programs[program].kind != ProgramKind::kMain && !called_.contains(program.value)) start.cycle = kOpen;
-    arrive(blocks[0], start);
-    while (!work.empty()) {
-      const BlockId id = work.front();
-      work.pop_front();
-      State state = states[id.value];
-      const State before = state;
-      const ModalState at = flow_.At(program, id);
-      Store(PartsOf(id, NormalOf(at.plane), IsHole(state.cycle)), at.distance == Distance::kIncremental, state,
-            nullptr);
-      if (module_.blocks[id].skip_level != Block::kNoSkip) Join(state, before);
-      for (const analysis::Edge& edge : cfg.Successors(id)) {
-        const bool leaves =
-            edge.kind == analysis::EdgeKind::kReturn || edge.kind == analysis::EdgeKind::kReturnToTarget;
-        if (leaves && called_.contains(program.value) && state.cycle != kNoCycle) outlives_.insert(id.value);
-        if (edge.kind == analysis::EdgeKind::kComputed) {
-          for (const BlockId target : cfg.ComputedTargets()) arrive(target, state);
-        } else if (edge.to.Valid()) {
-          arrive(edge.to, state);
-        }
-      }
+    for (const BlockId id : blocks) {
+      if (called_.contains(program.value) && LeavesUnderCycle(program, id))
+        Refuse(module_.blocks[id], "a return while a drilling cycle is in force");
     }
-    for (const std::uint32_t id : outlives_)
-      Refuse(module_.blocks[BlockId{std::size_t{id}}], "a return while a drilling cycle is in force");
-    outlives_.clear();
+    program_ = program;
     ProgramEditor editor(module_, program, "expand_cycles");
     for (const BlockId id : blocks) {
-      const auto found = states.find(id.value);
-      if (found != states.end() && found->second.reached) MapBlock(id, found->second, editor);
+      if (const State* before = drilling_.Before(id)) MapBlock(id, *before, editor);
     }
     editor.Apply();
+  }
+
+  [[nodiscard]] bool LeavesUnderCycle(ProgramId program, BlockId id) {
+    const State* before = drilling_.Before(id);
+    if (before == nullptr) return false;
+    State state = *before;
+    Transfer(program, id, state);
+    if (analysis::WaysOf(module_, module_.blocks[id]).conditional) Join({}, state, *before);
+    if (state.cycle == kNoCycle || state.cycle == kCallers) return false;
+    for (const analysis::Edge& edge : graphs_.Of(program).Successors(id)) {
+      if (edge.kind == analysis::EdgeKind::kReturn || edge.kind == analysis::EdgeKind::kReturnToTarget ||
+          edge.kind == analysis::EdgeKind::kTextEnd)
+        return true;
+    }
+    return false;
   }
 
   static bool IsHoleWord(const Word& word) {
@@ -272,18 +273,18 @@ class Pass {
     const Block block = module_.blocks[id];
     const ModalState at = flow_.At(program_, id);
     const std::uint8_t normal = NormalOf(at.plane);
-    const bool open = before.cycle == kOpen;
+    const bool open = before.cycle == kOpen || before.cycle == kCallers;
     const Parts parts = PartsOf(id, normal, IsHole(before.cycle));
     bool moves = false, says = false;
     for (const WordId word_id : block.words) {
       const Word& word = module_.words[word_id];
       moves = moves || word.op == WordOp::kAxis;
       says = says || IsHoleWord(word);
-      if ((word.op == WordOp::kCall || word.op == WordOp::kModalCall || word.op == WordOp::kReference ||
-           word.op == WordOp::kMachineCoords || word.op == WordOp::kFrame) &&
-          IsHole(before.cycle)) {
+      const bool call = word.op == WordOp::kCall || word.op == WordOp::kModalCall;
+      const bool elsewhere =
+          word.op == WordOp::kReference || word.op == WordOp::kMachineCoords || word.op == WordOp::kFrame;
+      if ((call && parts.cycle != kUnset && IsHole(parts.cycle)) || ((call || elsewhere) && IsHole(before.cycle)))
         return Refuse(block, "a call, shift or reference move while a drilling cycle is in force");
-      }
     }
     // A subprogram that begins with moves relies on its callers to have no cycle in force; so does this one.
     if (open && parts.cycle == kUnset && !parts.motion && moves)
@@ -532,11 +533,13 @@ class Pass {
   analysis::FlowGraphs graphs_;
   analysis::CallGraph calls_;
   analysis::ModalFlow flow_;
-  std::set<std::uint32_t> called_;    // programs
-  std::set<std::uint32_t> outlives_;  // blocks that return under a cycle
+  analysis::ForwardFlow<Pass> drilling_;
+  std::set<std::uint32_t> called_;  // programs
   ProgramId program_;
-  ExprId locals_[kFields];
-  ExprId initial_;
+  struct Locals {
+    ExprId fields[kFields], initial;
+  };
+  std::vector<Locals> locals_;  // per program
   bool ok_ = true;
   std::set<std::uint32_t> refused_;  // origins of blocks
 };

@@ -318,7 +318,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
              std::ranges::find(input.config->given, name) != input.config->given.end();
     };
   }
-  const EmptyValuesResult empty = EmptyValues(module, empty_config, sink);
+  const EmptyValuesResult empty = EmptyValues(module, machine, empty_config, sink);
   ok = empty.ok && ok;
   if (!ok) return false;
   TellTakenForGiven(input, empty, out);

@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <deque>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "ir/analysis/call_graph.h"
-#include "ir/analysis/cfg.h"
+#include "ir/analysis/forward_flow.h"
 #include "ir/builder.h"
 #include "ir/transform/index_range.h"
 #include "ir/transform/linear_form.h"
@@ -23,25 +21,39 @@ namespace {
 
 // What a cell may hold on arrival, as bits; no bit = no way leads here.
 constexpr std::uint8_t kEmpty = 1, kNumber = 2, kUnsure = kEmpty | kNumber;
-constexpr std::uint8_t kFromEntry = 4;  // nobody here has written it yet
-using State = std::vector<std::uint8_t>;
+constexpr std::uint8_t kFromEntry = 4;    // nobody here has written it yet
+using State = std::vector<std::uint8_t>;  // per cell
 
 /// At most this many words of one block may be there or not by themselves: each doubles its text.
 constexpr std::size_t kMostUnsureWords = 3;
 
 class Pass {
  public:
-  Pass(Module& module, const EmptyValuesConfig& config, diag::Sink& sink)
-      : module_(module), config_(config), sink_(sink), make_(module), graphs_(module), calls_(module) {}
+  Pass(Module& module, const Machine& machine, const EmptyValuesConfig& config, diag::Sink& sink)
+      : module_(module),
+        config_(config),
+        sink_(sink),
+        make_(module),
+        graphs_(module),
+        calls_(module),
+        flow_({module, machine, graphs_, calls_, nullptr}, *this) {}
 
   EmptyValuesResult Run();
 
- private:
   // The data flow.
+  using State = transform::State;
+  State Entry(ProgramId program);
+  [[nodiscard]] State Unknown(ProgramId) const { return State(cells_.size(), kUnsure | kFromEntry); }
+  static bool Join(BlockId, State& into, const State& from);
+  void Transfer(ProgramId program, BlockId block, State& state) const;
+  [[nodiscard]] std::optional<State> Into(const analysis::CallSite& site, analysis::CallMoment moment,
+                                          const State& at) const;
+  [[nodiscard]] State Back(const analysis::CallSite& site, const State& at, const State& exit) const;
+  bool Along(ProgramId program, BlockId block, const analysis::Edge& edge, State& state) const;
+
+ private:
   void FindCells();
   void FindWrites();
-  void Analyse();
-  bool AnalyseProgram(ProgramId program);
   /// A block that asks whether a cell is empty: on the ways out of it that is known.
   struct Test {
     std::optional<std::size_t> cell;
@@ -49,10 +61,8 @@ class Pass {
     analysis::EdgeKind holds = analysis::EdgeKind::kNext, fails = analysis::EdgeKind::kNext;
   };
   [[nodiscard]] Test TestOf(BlockId block) const;
-  void Transfer(ProgramId program, BlockId block, State& state);
-  void ThroughWord(ProgramId program, const Word& word, State& state);
-  void ThroughCall(ProgramId program, const Call& call, State& state);
-  bool Enter(ProgramId program, const State& state);
+  void ThroughAssign(const Word& word, State& state) const;
+  void ThroughWord(ProgramId program, BlockId block, WordId id, State& state) const;
   [[nodiscard]] std::uint8_t ClassOf(ExprId id, const State& state) const;
   [[nodiscard]] std::optional<std::size_t> IndexOf(ExprId id) const;
   /// Calls `visit` for every cell that `#[e]` may reach; false when those are not known.
@@ -110,10 +120,7 @@ class Pass {
   std::vector<std::pair<SpaceId, std::uint32_t>> cells_;
   std::vector<std::uint8_t> local_;
   std::vector<std::set<std::size_t>> writes_;  // per program, below it too; locals of other levels are not among them
-  std::vector<State> entries_, exits_;         // per program
-  std::map<std::uint32_t, State> before_;      // per block
-  std::vector<std::uint8_t> dirty_;            // per program
-  std::set<ProgramId> modal_callees_;
+  analysis::ForwardFlow<Pass> flow_;
   SpaceId local_space_, given_space_;
   std::set<std::uint32_t> given_;       // local cells
   std::set<std::uint32_t> asked_;       // cells that a program compares with an empty value
@@ -121,7 +128,7 @@ class Pass {
   bool changed_ = false;
 };
 
-bool Join(State& into, const State& from) {
+bool Pass::Join(BlockId, State& into, const State& from) {
   bool changed = false;
   for (std::size_t i = 0; i < into.size(); ++i) {
     const auto joined = static_cast<std::uint8_t>(into[i] | from[i]);
@@ -243,7 +250,6 @@ void Pass::FindWrites() {
     again = false;
     for (const analysis::CallSite& site : calls_.AllSites()) {
       if (!site.callee.Valid()) continue;
-      if (site.modal) modal_callees_.insert(site.callee);
       const bool shares = !module_.calls[site.call].new_level;
       for (const std::size_t index : writes_[site.callee.value]) {
         if (IsLocal(index) && !shares) continue;
@@ -253,97 +259,29 @@ void Pass::FindWrites() {
   }
 }
 
-bool Pass::Enter(ProgramId program, const State& state) {
-  if (!Join(entries_[program.value], state)) return false;
-  dirty_[program.value] = 1;
+State Pass::Entry(ProgramId program) {
+  const bool main = module_.programs[program].kind == ProgramKind::kMain;
+  State state = Unknown(program);
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    if (IsLocal(i) && main) state[i] = kEmpty;
+    const std::uint32_t cell = cells_[i].second;
+    if (!IsLocal(i) && config_.holds_number && config_.holds_number(cell)) state[i] = kNumber | kFromEntry;
+    if (IsLocal(i) && !main && !asked_.contains(cell) && config_.given && config_.given(program, cell)) {
+      state[i] = kNumber | kFromEntry;
+      result_.taken_for_given.emplace(program, cell);
+    }
+  }
+  return state;
+}
+
+bool Pass::Along(ProgramId, BlockId block, const analysis::Edge& edge, State& state) const {
+  const Test test = TestOf(block);
+  if (!test.cell || (edge.kind != test.holds && edge.kind != test.fails)) return true;
+  const bool empty = test.empty == (edge.kind == test.holds);
+  std::uint8_t& bits = state[*test.cell];
+  if ((bits & (empty ? kEmpty : kNumber)) == 0) return false;
+  bits = static_cast<std::uint8_t>(bits & ~(empty ? kNumber : kEmpty));
   return true;
-}
-
-void Pass::Analyse() {
-  const State none(cells_.size(), 0);
-  entries_.assign(module_.programs.Size(), none);
-  exits_.assign(module_.programs.Size(), none);
-  dirty_.assign(module_.programs.Size(), 0);
-  std::vector<std::uint8_t> called(module_.programs.Size(), 0);
-  for (const analysis::CallSite& site : calls_.AllSites()) {
-    if (site.callee.Valid()) called[site.callee.value] = 1;
-  }
-  for (const ProgramId program : module_.programs.Ids()) {
-    const bool main = module_.programs[program].kind == ProgramKind::kMain;
-    if (!main && called[program.value] != 0) continue;
-    State state(cells_.size(), kUnsure | kFromEntry);
-    for (std::size_t i = 0; i < cells_.size(); ++i) {
-      if (IsLocal(i) && main) state[i] = kEmpty;
-      const std::uint32_t cell = cells_[i].second;
-      if (!IsLocal(i) && config_.holds_number && config_.holds_number(cell)) state[i] = kNumber | kFromEntry;
-      if (IsLocal(i) && !main && !asked_.contains(cell) && config_.given && config_.given(program, cell)) {
-        state[i] = kNumber | kFromEntry;
-        result_.taken_for_given.emplace(program, cell);
-      }
-    }
-    Enter(program, state);
-    dirty_[program.value] = 1;
-  }
-  for (bool again = true; again;) {
-    again = false;
-    for (const ProgramId program : module_.programs.Ids()) {
-      if (dirty_[program.value] == 0) continue;
-      dirty_[program.value] = 0;
-      again = true;
-      if (!AnalyseProgram(program)) continue;
-      for (const analysis::CallSite& site : calls_.AllSites()) {
-        if (site.callee == program) dirty_[site.caller.value] = 1;
-      }
-    }
-  }
-}
-
-/// True if what the program leaves behind changed.
-bool Pass::AnalyseProgram(ProgramId program) {
-  const analysis::Cfg& cfg = graphs_.Of(program);
-  const IdRange<BlockId> blocks = module_.programs[program].blocks;
-  if (blocks.Empty()) return Join(exits_[program.value], entries_[program.value]);
-  const State none(cells_.size(), 0);
-  std::deque<BlockId> work;
-  const auto arrive = [&](BlockId to, const State& state) {
-    auto [place, added] = before_.try_emplace(to.value, none);
-    if (Join(place->second, state) || added) work.push_back(to);
-  };
-  bool exits_changed = false;
-  // The state on arrival grows only, so old results stay a start; calls may have changed, so every block goes once
-  // more.
-  arrive(blocks[0], entries_[program.value]);
-  for (const BlockId block : blocks) {
-    if (before_.contains(block.value)) work.push_back(block);
-  }
-  while (!work.empty()) {
-    const BlockId block = work.front();
-    work.pop_front();
-    State after = before_.at(block.value);
-    Transfer(program, block, after);
-    const Test test = TestOf(block);
-    for (const analysis::Edge& edge : cfg.Successors(block)) {
-      State state = after;
-      if (test.cell && (edge.kind == test.holds || edge.kind == test.fails)) {
-        const bool empty = test.empty == (edge.kind == test.holds);
-        std::uint8_t& bits = state[*test.cell];
-        if ((bits & (empty ? kEmpty : kNumber)) == 0) continue;  // no run takes this way
-        bits = static_cast<std::uint8_t>(bits & ~(empty ? kNumber : kEmpty));
-      }
-      switch (edge.kind) {
-        case analysis::EdgeKind::kReturn:
-        case analysis::EdgeKind::kReturnToTarget:
-          exits_changed = Join(exits_[program.value], state) || exits_changed;
-          break;
-        case analysis::EdgeKind::kComputed:
-          for (const BlockId target : cfg.ComputedTargets()) arrive(target, state);
-          break;
-        default:
-          if (edge.to.Valid()) arrive(edge.to, state);
-      }
-    }
-  }
-  return exits_changed;
 }
 
 Pass::Test Pass::TestOf(BlockId id) const {
@@ -372,86 +310,60 @@ Pass::Test Pass::TestOf(BlockId id) const {
   return test;
 }
 
-void Pass::Transfer(ProgramId program, BlockId id, State& state) {
-  const Block& block = module_.blocks[id];
-  State open = state;
-  bool may_not_run = block.skip_level != Block::kNoSkip;
-  for (const WordId word_id : block.words) {
-    const Word word = module_.words[word_id];
-    may_not_run = may_not_run || word.op == WordOp::kWhen || word.op == WordOp::kSkipRest;
-    ThroughWord(program, word, state);
-  }
-  if (may_not_run) Join(state, open);
-  // A modal call may run behind any block: with the common cells as they are then, and what it writes may be there.
-  for (const ProgramId callee : modal_callees_) {
-    State entry = state;
-    for (std::size_t i = 0; i < entry.size(); ++i) {
-      if (IsLocal(i)) entry[i] = 0;
-    }
-    Enter(callee, entry);
-    for (const std::size_t index : writes_[callee.value]) {
-      if (!IsLocal(index)) state[index] = static_cast<std::uint8_t>(state[index] | exits_[callee.value][index]);
-    }
-  }
+void Pass::Transfer(ProgramId, BlockId block, State& state) const {
+  for (const WordId id : module_.blocks[block].words) ThroughAssign(module_.words[id], state);
 }
 
-void Pass::ThroughWord(ProgramId program, const Word& word, State& state) {
-  switch (word.op) {
-    case WordOp::kAssign: {
-      const ExprId place = word.Extra<ExprId>();
-      if (const auto index = IndexOf(place)) state[*index] = ClassOf(word.value, state);
-      if (module_.exprs[place].op == ExprOp::kCellAt) {
-        // One of them is written, the others stay.
-        const std::uint8_t made = ClassOf(word.value, state);
-        const bool known = Reached(module_.exprs[place], [&](std::size_t index) {
-          state[index] = static_cast<std::uint8_t>(state[index] | made);
-        });
-        for (std::uint8_t& bits : state) bits = known ? bits : static_cast<std::uint8_t>(bits | kUnsure);
-      }
-      break;
-    }
-    case WordOp::kCall:
-      ThroughCall(program, module_.calls[word.Extra<CallId>()], state);
-      break;
-    case WordOp::kModalCall: {
-      // Runs later, with the arguments of now.
-      if (!word.Extra<CallId>().Valid()) break;
-      State copy = state;
-      ThroughCall(program, module_.calls[word.Extra<CallId>()], copy);
-      break;
-    }
-    default:
-      break;
-  }
+void Pass::ThroughAssign(const Word& word, State& state) const {
+  if (word.op != WordOp::kAssign) return;
+  const ExprId place = word.Extra<ExprId>();
+  if (const auto index = IndexOf(place)) state[*index] = ClassOf(word.value, state);
+  if (module_.exprs[place].op != ExprOp::kCellAt) return;
+  // One of them is written, the others stay.
+  const std::uint8_t made = ClassOf(word.value, state);
+  const bool known = Reached(module_.exprs[place],
+                             [&](std::size_t index) { state[index] = static_cast<std::uint8_t>(state[index] | made); });
+  for (std::uint8_t& bits : state) bits = known ? bits : static_cast<std::uint8_t>(bits | kUnsure);
 }
 
-void Pass::ThroughCall(ProgramId program, const Call& call, State& state) {
-  if (!call.program.Valid()) {
-    if (call.name_expr.Valid()) {
-      for (std::uint8_t& bits : state) bits = kUnsure;
-    }
-    return;
+/// A word once the flow is known: what holds for the words behind it.
+void Pass::ThroughWord(ProgramId program, BlockId block, WordId id, State& state) const {
+  const Word& word = module_.words[id];
+  ThroughAssign(word, state);
+  if (word.op != WordOp::kCall) return;
+  const auto call = word.Extra<CallId>();
+  const ProgramId callee = module_.calls[call].program;
+  const State* exit = callee.Valid() ? flow_.Exit(callee) : nullptr;
+  if (callee.Valid() && exit == nullptr) return;  // no way back
+  state = Back({program, block, id, call, callee}, state, exit != nullptr ? *exit : Unknown(program));
+}
+
+std::optional<State> Pass::Into(const analysis::CallSite& site, analysis::CallMoment moment, const State& at) const {
+  const Call& call = module_.calls[site.call];
+  State entry = at;
+  if (!call.new_level) return entry;
+  for (std::size_t i = 0; i < entry.size(); ++i) {
+    // A modal call takes its locals where it is written, and what its runs left of them.
+    if (IsLocal(i)) entry[i] = moment == analysis::CallMoment::kModalRun ? std::uint8_t{0} : kEmpty;
   }
-  const ProgramId callee = call.program;
-  State entry = state;
-  if (call.new_level) {
-    for (std::size_t i = 0; i < entry.size(); ++i) {
-      if (IsLocal(i)) entry[i] = kEmpty;
-    }
-    for (const ArgId id : call.args) {
-      const Arg& arg = module_.args[id];
-      const auto found = index_.find({local_space_.value, arg.position});
-      if (arg.letter != 0 && found != index_.end()) entry[found->second] = ClassOf(arg.value, state);
-    }
+  if (moment == analysis::CallMoment::kModalRun) return entry;
+  for (const ArgId id : call.args) {
+    const Arg& arg = module_.args[id];
+    const auto found = index_.find({local_space_.value, arg.position});
+    if (arg.letter != 0 && found != index_.end()) entry[found->second] = ClassOf(arg.value, at);
   }
-  Enter(callee, entry);
-  if (call.passes.Valid()) Enter(callee, exits_[callee.value]);  // further passes find what the one before left
-  const State& exit = exits_[callee.value];
-  for (const std::size_t index : writes_[callee.value]) {
+  return entry;
+}
+
+State Pass::Back(const analysis::CallSite& site, const State& at, const State& exit) const {
+  const Call& call = module_.calls[site.call];
+  if (!site.callee.Valid()) return call.name_expr.Valid() ? exit : at;  // one that is not found has its finding
+  State behind = at;
+  for (const std::size_t index : writes_[site.callee.value]) {
     if (IsLocal(index) && call.new_level) continue;
-    state[index] = exit[index];
+    behind[index] = exit[index];
   }
-  static_cast<void>(program);
+  return behind;
 }
 
 // --- truth values beside cells
@@ -517,13 +429,13 @@ void Pass::FindGiven() {
     changed_ = false;
     for (const ProgramId program : module_.programs.Ids()) {
       for (const BlockId block : module_.programs[program].blocks) {
-        const auto found = before_.find(block.value);
-        if (found == before_.end()) continue;
-        State state = found->second;
+        const State* before = flow_.Before(block);
+        if (before == nullptr) continue;
+        State state = *before;
         for (const WordId word_id : module_.blocks[block].words) {
           const Word word = module_.words[word_id];
           VisitAll(block, word, state);
-          ThroughWord(program, word, state);
+          ThroughWord(program, block, word_id, state);
         }
       }
     }
@@ -676,17 +588,17 @@ void Pass::NoteReads(ProgramId program, const Word& word, const State& state) {
 }
 
 void Pass::RewriteBlock(ProgramId program, BlockId id, ProgramEditor& editor) {
-  const auto found = before_.find(id.value);
-  const State none(cells_.size(), kNumber);  // no way leads here: what it says does not matter
-  State state = found == before_.end() ? none : found->second;
+  const State* before = flow_.Before(id);
+  const State start = before != nullptr ? *before : State(cells_.size(), kNumber);  // no way here: does not matter
+  State state = start;
   const Block block = module_.blocks[id];
   std::vector<Word> words;
   std::set<std::size_t> unsure;
   for (const WordId word_id : block.words) {
     Word word = module_.words[word_id];
-    if (found != before_.end()) NoteReads(program, word, state);
+    if (before != nullptr) NoteReads(program, word, state);
     const State here = state;
-    ThroughWord(program, word, state);
+    ThroughWord(program, id, word_id, state);
     if ((word.op == WordOp::kCall || word.op == WordOp::kModalCall) && word.Extra<CallId>().Valid()) {
       RewriteCall(word.Extra<CallId>(), here);
       words.push_back(word);
@@ -745,7 +657,7 @@ void Pass::RewriteBlock(ProgramId program, BlockId id, ProgramEditor& editor) {
     place.comments = block.comments;
     editor.InsertBefore(id, place);
   }
-  Variants(id, editor, words, found == before_.end() ? none : found->second);
+  Variants(id, editor, words, start);
   module_.blocks[id].comments = {};
   module_.blocks[id].label = {};
   module_.blocks[id].number = Block::kNoNumber;
@@ -759,14 +671,14 @@ void Pass::Rewrite(ProgramId program) {
   if (module_.programs[program].kind == ProgramKind::kMain) {
     std::optional<State> end;
     for (const BlockId block : blocks) {
-      const auto found = before_.find(block.value);
-      if (found == before_.end()) continue;
+      const State* before = flow_.Before(block);
+      if (before == nullptr) continue;
       for (const analysis::Edge& edge : cfg.Successors(block)) {
         if (edge.kind != analysis::EdgeKind::kEnd) continue;
-        State state = found->second;
+        State state = *before;
         Transfer(program, block, state);
         if (!end) end = State(cells_.size(), 0);
-        Join(*end, state);
+        Join({}, *end, state);
       }
     }
     for (std::size_t i = 0; end && i < cells_.size(); ++i) {
@@ -784,7 +696,7 @@ void Pass::Rewrite(ProgramId program) {
 EmptyValuesResult Pass::Run() {
   FindCells();
   FindWrites();
-  Analyse();
+  flow_.Run();
   FindGiven();
   if (!result_.ok) return std::move(result_);
   if (!given_.empty()) {
@@ -799,8 +711,9 @@ EmptyValuesResult Pass::Run() {
 
 }  // namespace
 
-EmptyValuesResult EmptyValues(Module& module, const EmptyValuesConfig& config, diag::Sink& sink) {
-  return Pass(module, config, sink).Run();
+EmptyValuesResult EmptyValues(Module& module, const Machine& source, const EmptyValuesConfig& config,
+                              diag::Sink& sink) {
+  return Pass(module, source, config, sink).Run();
 }
 
 }  // namespace ncport::ir::transform

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "base/diag/sink.h"
+#include "ir/machine.h"
 #include "ir/module.h"
 
 namespace ncport::ir::transform {
@@ -44,6 +45,6 @@ struct EmptyValuesResult {
 };
 
 /// The whole module. A common variable whose emptiness matters and is not known is a finding (NC6001) at its block.
-EmptyValuesResult EmptyValues(Module& module, const EmptyValuesConfig& config, diag::Sink& sink);
+EmptyValuesResult EmptyValues(Module& module, const Machine& source, const EmptyValuesConfig& config, diag::Sink& sink);
 
 }  // namespace ncport::ir::transform

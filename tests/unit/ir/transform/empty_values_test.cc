@@ -33,7 +33,7 @@ struct Fixture {
   }
   std::string Run(ProgramBuilder& program, const EmptyValuesConfig& config = {}) {
     program.Finish();
-    result = EmptyValues(module, config, sink);
+    result = EmptyValues(module, Machine{}, config, sink);
     TextBuffer out;
     Dump(module, out, {.places = false});
     return std::string(out.View());

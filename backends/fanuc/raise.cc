@@ -328,6 +328,21 @@ void DropForeignModes(const RaiseInput& input, Translation& out) {
   }
 }
 
+/// A program that takes its position from cells cuts elsewhere when somebody else calls it.
+void TellCarriedPositions(const CarriedPositions& carried, Translation& out) {
+  if (carried.programs.empty()) return;
+  std::string programs, cells;
+  for (const ProgramName& name : out.programs) {
+    if (std::ranges::find(carried.programs, name.program) == carried.programs.end()) continue;
+    programs += (programs.empty() ? "" : " ") + name.target;
+  }
+  for (const CellMapping& cell : out.cells) {
+    if (std::ranges::find(carried.cells, cell.source_space) == carried.cells.end()) continue;
+    cells += (cells.empty() ? "" : " ") + cell.target;
+  }
+  out.required.push_back(fmt::format("CALLS OF {} ONLY AS THEY STAND HERE: {} HOLD THE POSITION", programs, cells));
+}
+
 }  // namespace
 
 bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
@@ -383,7 +398,8 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
     const bool split_up = std::ranges::any_of(split.programs, [&](const auto& p) { return p.whole == program; });
     dimensions.frames.restores.push_back(input.source->programs[program].saves_modal_state && !split_up);
   }
-  ok = AbsoluteDimensions(module, machine, dimensions, sink) && ok;
+  CarriedPositions carried;
+  ok = AbsoluteDimensions(module, machine, dimensions, sink, &carried) && ok;
   ok = ThreadLeads(input, out, sink) && ok;
   ok = RoundFeeds(input, out, sink) && ok;  // while the blocks still say which of them are threads
   ok = NameTurningOffsets(input, out, sink) && ok;
@@ -410,6 +426,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   out.cells = std::move(names.map);
   if (!names.ok) return false;
   ok = NamePrograms(input, split, out, sink);
+  if (ok) TellCarriedPositions(carried, out);
   GuardMacros(input, out);
   if (framed) {
     FrameToolChanges(input, out);

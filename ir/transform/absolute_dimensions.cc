@@ -18,7 +18,6 @@ namespace {
 
 constexpr double kInch = 25.4;
 constexpr double kFoot = 0.3048;  // ft/min in m/min
-constexpr std::string_view kAxisNames = "XYZABCUVW";
 
 /// Words that make the axis words of their block something else than a move.
 bool AxisWordsAreMoves(const Module& module, const Block& block) {
@@ -72,10 +71,12 @@ bool DimensionPass::Conditional(const Block& block) const {
 
 void DimensionPass::Unknown(BlockId block, const Word& word, std::uint8_t axis) {
   ok_ = false;
-  sink_
-      .Report(diag::Code::kUnknownPosition, module_.RangeOf(module_.blocks[block], word),
-              std::string(1, kAxisNames[axis]))
-      .help = "program the axis once with an absolute word before the increment, on every way that leads here";
+  diag::Diagnostic& finding = sink_.Report(diag::Code::kUnknownPosition, module_.RangeOf(module_.blocks[block], word),
+                                           std::string(1, kDimensionAxes[axis]));
+  finding.help = "program the axis once with an absolute word before the increment, on every way that leads here";
+  const auto caller = unknown_callers_.find({program_.value, axis});
+  if (caller != unknown_callers_.end())
+    finding.notes.push_back({module_.RangeOf(module_.blocks[caller->second]), "it is not known at this call"});
 }
 
 bool DimensionPass::TriggersModal(ProgramId program, BlockId id) const {
@@ -94,9 +95,10 @@ void DimensionPass::FindEffects() {
     for (const Word& word : module_.words.All()) {
       if (word.op != WordOp::kModalCall || !word.Extra<CallId>().Valid()) continue;
       const ProgramId runs = module_.calls[word.Extra<CallId>()].program;
-      const Effects below = runs.Valid() ? effects_[runs.value] : Effects{kAllSlots, true};
+      const Effects below = runs.Valid() ? effects_[runs.value] : Effects{kAllSlots, true, true};
       modal_.slots |= below.slots;
       modal_.writes_shared = modal_.writes_shared || below.writes_shared;
+      modal_.reframes = modal_.reframes || below.reframes;
     }
     for (const ProgramId program : module_.programs.Ids()) {
       Effects now = effects_[program.value];
@@ -104,6 +106,7 @@ void DimensionPass::FindEffects() {
         if (TriggersModal(program, block)) {
           now.slots |= modal_.slots;
           now.writes_shared = now.writes_shared || modal_.writes_shared;
+          now.reframes = now.reframes || modal_.reframes;
         }
         for (const WordId id : module_.blocks[block].words) {
           const Word& word = module_.words[id];
@@ -114,6 +117,10 @@ void DimensionPass::FindEffects() {
             now.slots = kAllSlots;
           if (word.op == WordOp::kPlane) now.slots |= kPolarSlots;
           if (word.op == WordOp::kFrame) now.slots |= kLinearSlots | kShiftSlots;
+          // The zero point moves: what the axes stand at are other numbers then.
+          if (word.op == WordOp::kWorkOffset || word.op == WordOp::kPresetPosition) now.slots |= MaskOf(kMaxAxes) - 1;
+          now.reframes = now.reframes || word.op == WordOp::kFrame || word.op == WordOp::kWorkOffset ||
+                         word.op == WordOp::kPresetPosition;
           if (word.op == WordOp::kAssign) {
             const Expr& place = module_.exprs[word.Extra<ExprId>()];
             const bool own = (place.op == ExprOp::kVariable || place.op == ExprOp::kElement) &&
@@ -125,14 +132,15 @@ void DimensionPass::FindEffects() {
             const auto call = word.Extra<CallId>();
             if (!call.Valid()) continue;
             const ProgramId callee = module_.calls[call].program;
-            const Effects below = callee.Valid() ? effects_[callee.value] : Effects{kAllSlots, true};
+            const Effects below = callee.Valid() ? effects_[callee.value] : Effects{kAllSlots, true, true};
             now.slots |= below.slots;
             now.writes_shared = now.writes_shared || below.writes_shared;
+            now.reframes = now.reframes || below.reframes;
           }
         }
       }
       Effects& known = effects_[program.value];
-      if (now.slots != known.slots || now.writes_shared != known.writes_shared) {
+      if (now.slots != known.slots || now.writes_shared != known.writes_shared || now.reframes != known.reframes) {
         known = now;
         changed = true;
       }
@@ -194,6 +202,7 @@ Step DimensionPass::StepOf(BlockId id, Slot slot) const {
     const Word& call = module_.words[word_id];
     if ((call.op != WordOp::kCall && call.op != WordOp::kModalCall) || !call.Extra<CallId>().Valid()) continue;
     const ProgramId callee = module_.calls[call.Extra<CallId>()].program;
+    if (ReturnedAt(id) >> slot & 1U) return Step::kReturned;
     const SlotMask slots = callee.Valid() ? effects_[callee.value].slots : kAllSlots;
     if (slots >> slot & 1U) return Step::kLost;
   }
@@ -235,6 +244,7 @@ Step DimensionPass::AxisStep(BlockId id, std::uint8_t axis) const {
 }
 
 bool DimensionPass::UsesSlot(BlockId id, Slot slot) const {
+  if (PassedAt(id) >> slot & 1U) return true;
   if (UsesForPlane(id, slot) || UsesForFrame(id, slot) || StepOf(id, slot) == Step::kIncremental) return true;
   for (const WordId word : module_.blocks[id].words) {
     const Word& center = module_.words[word];
@@ -252,15 +262,14 @@ void DimensionPass::FindLive() {
       if (UsesSlot(blocks_[i], slot)) uses[i] |= MaskOf(slot);
       const Step step = StepOf(blocks_[i], slot);
       const bool always = !Conditional(module_.blocks[blocks_[i]]);
-      if ((step == Step::kAbsolute || step == Step::kComputed || step == Step::kLost) && always)
-        sets[i] |= MaskOf(slot);
+      if (step != Step::kNone && step != Step::kIncremental && always) sets[i] |= MaskOf(slot);
     }
   }
   const analysis::Cfg& graph = graphs_.Of(program_);
   for (bool changed = true; changed;) {
     changed = false;
     for (std::uint32_t i = blocks_.count; i-- > 0;) {
-      SlotMask behind = 0;
+      SlotMask behind = LeftAt(blocks_[i]);
       for (const analysis::Edge& edge : graph.Successors(blocks_[i])) {
         if (edge.to.Valid()) behind |= live_[IndexOf(edge.to)];
         if (edge.kind == analysis::EdgeKind::kComputed) behind = kAllSlots;
@@ -300,12 +309,13 @@ void DimensionPass::FindCarryLive() {
 ExprId DimensionPass::Held(Slot slot) {
   static constexpr std::string_view kOtherNames[] = {"POLE_1",  "POLE_2",  "POLAR_ANGLE", "POLAR_RADIUS",
                                                      "SHIFT_X", "SHIFT_Y", "SHIFT_Z"};
-  if (!held_[slot].Valid()) {
+  VariableId& held = held_[program_.value][slot];
+  if (!held.Valid()) {
     const std::string name =
-        slot < kMaxAxes ? fmt::format("POS_{}", kAxisNames[slot]) : std::string(kOtherNames[slot - kPoleFirst]);
-    held_[slot] = NewLocal(module_, program_, name, Type::kReal);
+        slot < kMaxAxes ? fmt::format("POS_{}", kDimensionAxes[slot]) : std::string(kOtherNames[slot - kPoleFirst]);
+    held = NewLocal(module_, program_, name, Type::kReal);
   }
-  return make_.Variable(held_[slot]);
+  return make_.Variable(held);
 }
 
 bool DimensionPass::ReadsPlace(const LinearForm& form, ExprId place) const {
@@ -342,15 +352,18 @@ bool DimensionPass::ReadsShared(const LinearForm& form) const {
   return shared;
 }
 
-/// The value goes to its local, before or behind the block; from there on it is what the local holds.
 void DimensionPass::Save(BlockId id, Slot slot, SlotValue& value, bool before, bool emit) {
-  const ExprId held = Held(slot);
-  const LinearForm there = FormOf(module_, held);
+  PutInto(Held(slot), id, value, before, emit);
+}
+
+/// The value goes to `place`, before or behind the block; from there on it is what the place holds.
+void DimensionPass::PutInto(ExprId place, BlockId id, SlotValue& value, bool before, bool emit) {
+  const LinearForm there = FormOf(module_, place);
   if (emit && !SameForm(module_, value.form, there)) {
     Word word;
     word.op = WordOp::kAssign;
     word.phase = DefaultPhaseOf(WordOp::kAssign);
-    word.extra = held.value;
+    word.extra = place.value;
     word.value = ExprOf(module_, value.form);
     Block made = editor_->MakeBlock(id);
     editor_->SetWords(made, {word});
@@ -373,21 +386,25 @@ void DimensionPass::Through(BlockId id, Slots& slots, bool emit) {
   const Block block = module_.blocks[id];
   // What the block writes may stand in a sum that is used later.
   bool calls_shared = false;
+  bool writes_cells = false;
   for (const WordId word_id : block.words) {
     const Word& word = module_.words[word_id];
     if ((word.op == WordOp::kCall || word.op == WordOp::kModalCall) && word.Extra<CallId>().Valid()) {
       const ProgramId callee = module_.calls[word.Extra<CallId>()].program;
       calls_shared = calls_shared || !callee.Valid() || effects_[callee.value].writes_shared;
+      writes_cells = true;
     }
   }
-  SlotMask live_behind = 0;
-  for (const analysis::Edge& edge : graphs_.Of(program_).Successors(id)) {
-    if (edge.to.Valid()) live_behind |= live_[IndexOf(edge.to)];
-  }
+  const SlotMask in_cells = PassedAt(id) | ReturnedAt(id);  // the call writes these, and what the callee passes on
+  const SlotMask left = LeftAt(id);
+  const SlotMask live_behind = LiveBehind(id);
   for (Slot slot = 0; slot < SlotsUsed(); ++slot) {
     SlotValue& value = slots[slot];
     if (!value.Known() || ((live_[index] | live_behind) >> slot & 1U) == 0) continue;
-    bool changes = calls_shared && ReadsShared(value.form);
+    // In front of a return the cells are written before its block moves.
+    bool changes = (calls_shared && (in_cells >> slot & 1U) == 0 && ReadsShared(value.form)) ||
+                   (writes_cells && (in_cells >> slot & 1U) == 0 && ReadsCells(value.form)) ||
+                   (left != 0 && StepOf(id, slot) != Step::kNone && ReadsCells(value.form));
     for (const WordId word_id : block.words) {
       const Word& word = module_.words[word_id];
       if (word.op == WordOp::kAssign) changes = changes || ReadsPlace(value.form, word.Extra<ExprId>());
@@ -404,6 +421,7 @@ void DimensionPass::Through(BlockId id, Slots& slots, bool emit) {
     }
     if (changes) Save(id, slot, value, true, emit);
   }
+  PassPositions(id, slots, emit);
   if (emit) RewriteWords(id, slots);
   const ModalState state = flow_.At(program_, id);
   const Slots in = slots;
@@ -414,6 +432,12 @@ void DimensionPass::Through(BlockId id, Slots& slots, bool emit) {
     const SlotValue& before = in[slot];
     value = {SlotValue::Kind::kUnknown, {}};
     if (step == Step::kLost) continue;
+    if (step == Step::kReturned) {
+      // A call that may be skipped leaves the cell as it was filled before, if that was known.
+      if (!Conditional(block) || before.Known()) value = {SlotValue::Kind::kKnown, FormOf(module_, CellAt(slot))};
+      if (value.Known() && (carry_live_[index] >> slot & 1U)) Save(id, slot, value, false, emit);
+      continue;
+    }
     if (step == Step::kComputed) {
       const std::optional<LinearForm> form = Computed(id, slot, in);
       if (!form) continue;
@@ -432,12 +456,13 @@ void DimensionPass::Through(BlockId id, Slots& slots, bool emit) {
     }
     if (carry_live_[index] >> slot & 1U) Save(id, slot, value, false, emit);
   }
+  LeavePositions(id, slots, emit);
   if (!TriggersModal(program_, id)) return;
   // The program of the modal call moves on from there, and may change what a sum reads.
   for (Slot slot = 0; slot < SlotsUsed(); ++slot) {
     SlotValue& value = slots[slot];
     const bool moved = (modal_.slots >> slot & 1U) != 0;
-    const bool changed = modal_.writes_shared && value.Known() && ReadsShared(value.form);
+    const bool changed = value.Known() && ((modal_.writes_shared && ReadsShared(value.form)) || ReadsCells(value.form));
     if (value.kind != SlotValue::Kind::kNoWay && (moved || changed)) value = {SlotValue::Kind::kUnknown, {}};
   }
 }
@@ -477,7 +502,7 @@ bool DimensionPass::Join(BlockId block, Slots& at, const Slots& from) {
 }
 
 /// Nothing is known where a program starts; only the pole of a main program is the zero point (sinumerik-8.6).
-Slots DimensionPass::EntrySlots() const {
+Slots DimensionPass::EntrySlots() {
   Slots slots;
   for (SlotValue& value : slots) value.kind = SlotValue::Kind::kUnknown;
   bool called = module_.programs[program_].kind != ProgramKind::kMain;
@@ -485,6 +510,9 @@ Slots DimensionPass::EntrySlots() const {
   if (!called || !poles_) {
     slots[kPoleFirst] = {SlotValue::Kind::kKnown, {}};
     slots[kPoleSecond] = {SlotValue::Kind::kKnown, {}};
+  }
+  for (Slot axis = 0; axis < kMaxAxes; ++axis) {
+    if (passes_[program_.value] >> axis & 1U) slots[axis] = {SlotValue::Kind::kKnown, FormOf(module_, CellAt(axis))};
   }
   const bool framed = blocks_.count != 0 && !frames_.Before(program_, blocks_[0]).untouched;
   for (std::uint8_t axis = 0; axis < 3 && !framed; ++axis) slots[kShift + axis] = {SlotValue::Kind::kKnown, {}};
@@ -638,13 +666,16 @@ void DimensionPass::DropModeWords() {
   editor.Apply();
 }
 
-bool DimensionPass::RunProgram(ProgramId program) {
+void DimensionPass::Enter(ProgramId program) {
   program_ = program;
   blocks_ = module_.programs[program].blocks;
-  held_ = {};
   carried_.assign(blocks_.count, 0);
   FindPlaneWords();
   FindSenses();
+}
+
+bool DimensionPass::RunProgram(ProgramId program) {
+  Enter(program);
   FindLive();
   Flow();
   editor_.emplace(module_, program, "absolute_dimensions");
@@ -676,6 +707,7 @@ bool DimensionPass::RunProgram(ProgramId program) {
 bool DimensionPass::Run() {
   FindRanges();
   FindEffects();
+  FindCallPositions();
   for (const ProgramId program : module_.programs.Ids()) RunProgram(program);
   if (!ok_) return false;
   for (const ProgramId program : module_.programs.Ids()) {
@@ -685,9 +717,12 @@ bool DimensionPass::Run() {
   return true;
 }
 
-bool AbsoluteDimensions(Module& module, const Machine& source, const AbsoluteDimensionsConfig& config,
-                        diag::Sink& sink) {
-  return DimensionPass(module, source, config, sink).Run();
+bool AbsoluteDimensions(Module& module, const Machine& source, const AbsoluteDimensionsConfig& config, diag::Sink& sink,
+                        CarriedPositions* carried) {
+  DimensionPass pass(module, source, config, sink);
+  const bool ok = pass.Run();
+  if (carried != nullptr) *carried = pass.Carried();
+  return ok;
 }
 
 }  // namespace ncport::ir::transform

@@ -1,7 +1,8 @@
 // Writes every dimension word as an absolute one in the terms of the target, so that no later pass or printer depends
 // on the distance, diameter or unit mode in force: an increment becomes the position it leads to.
 // Positions are kept as sums; where ways with different sums meet, or a variable of a sum changes, the position is held
-// in a local (POS_X). A step away and back costs nothing, and nothing is rounded on the way: no drift.
+// in a local (POS_X). A step away and back costs nothing, and nothing is rounded on the way: no drift. Where a
+// subprogram starts with increments, or its caller goes on with some, the position crosses the call in a cell (AT_X).
 //
 // What only the source has is written as end points and centres: arcs by opening angle or intermediate point, polar
 // words about their pole. Where that needs a start point, a pole or a radius that is not known, it is refused.
@@ -35,9 +36,15 @@ struct AbsoluteDimensionsConfig {
   FrameFlowOptions frames;
 };
 
+/// Programs that find the position in cells when they start or end: nobody else may call them without filling these.
+struct CarriedPositions {
+  std::vector<ProgramId> programs;
+  std::vector<SpaceId> cells;  // one cell each
+};
+
 /// All programs of the module. An increment from a position that is not known, and a word under a mode that is not one
 /// value there, are findings (NC5001, NC5006) at the word; returns false then.
-bool AbsoluteDimensions(Module& module, const Machine& source, const AbsoluteDimensionsConfig& config,
-                        diag::Sink& sink);
+bool AbsoluteDimensions(Module& module, const Machine& source, const AbsoluteDimensionsConfig& config, diag::Sink& sink,
+                        CarriedPositions* carried = nullptr);
 
 }  // namespace ncport::ir::transform

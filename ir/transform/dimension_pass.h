@@ -1,6 +1,6 @@
 // The inside of absolute_dimensions.h: what its parts share. Flow of positions and axis words are in
 // absolute_dimensions.cc, arcs and polar words in absolute_plane.cc, frames in
-// absolute_frames.cc.
+// absolute_frames.cc, positions across calls in absolute_calls.cc.
 #pragma once
 
 #include <array>
@@ -38,6 +38,7 @@ inline constexpr SlotMask kAllSlots = MaskOf(kSlots) - 1;
 inline constexpr SlotMask kPolarSlots =
     MaskOf(kPoleFirst) | MaskOf(kPoleSecond) | MaskOf(kPolarAngle) | MaskOf(kPolarRadius);
 
+inline constexpr std::string_view kDimensionAxes = "XYZABCUVW";
 inline constexpr SlotMask kLinearSlots = 7;  // X Y Z
 inline constexpr SlotMask kShiftSlots = SlotMask{7} << kShift;
 
@@ -56,6 +57,7 @@ enum class Step : std::uint8_t {
   kAbsolute,
   kIncremental,
   kComputed,  // from the words and other slots: Pass::Computed
+  kReturned,  // a call that puts the position into its cell
   kLost
 };
 
@@ -83,6 +85,7 @@ struct PlaneWords {
 struct Effects {
   SlotMask slots = 0;
   bool writes_shared = false;  // cells or variables that its caller sees
+  bool reframes = false;       // frames, work offsets, preset positions
 };
 
 class DimensionPass {
@@ -99,10 +102,31 @@ class DimensionPass {
         frames_(module, source, graphs_, calls_, flow_, config.frames) {}
 
   bool Run();
+  [[nodiscard]] CarriedPositions Carried() const;
 
  private:
   void FindEffects();
+  void Enter(ProgramId program);
   bool RunProgram(ProgramId program);
+
+  // Positions across calls.
+  void FindCallPositions();
+  void FindPassable();
+  void FindPassed();
+  bool DropUnknownPassed();
+  ExprId CellAt(Slot axis);
+  /// The sum reads a cell that carries a position.
+  [[nodiscard]] bool ReadsCells(const LinearForm& form) const;
+  [[nodiscard]] const Word* PassableCall(BlockId block) const;
+  /// Positions that the callee of the block takes; that are in their cells behind the block; that this program gives
+  /// back at the block.
+  [[nodiscard]] SlotMask PassedAt(BlockId block) const;
+  [[nodiscard]] SlotMask ReturnedAt(BlockId block) const;
+  [[nodiscard]] SlotMask LeftAt(BlockId block) const;
+  [[nodiscard]] SlotMask LiveBehind(BlockId block) const;
+  void PassPositions(BlockId block, Slots& slots, bool emit);
+  void LeavePositions(BlockId block, Slots& slots, bool emit);
+  void PutPositions(BlockId block, SlotMask which, Slots& slots, bool before, bool emit);
 
   // Analysis of one program.
   [[nodiscard]] Step StepOf(BlockId block, Slot slot) const;
@@ -116,7 +140,7 @@ class DimensionPass {
   /// The block moves and a modal call may be active: its program runs behind the block.
   [[nodiscard]] bool TriggersModal(ProgramId program, BlockId block) const;
   bool Join(BlockId block, Slots& at, const Slots& from);
-  [[nodiscard]] Slots EntrySlots() const;
+  [[nodiscard]] Slots EntrySlots();
   /// Slots that need to be followed: without polar words and frames only the axes.
   [[nodiscard]] Slot SlotsUsed() const { return frames_.Any() ? kSlots : polar_ ? kShift : kMaxAxes; }
 
@@ -134,6 +158,7 @@ class DimensionPass {
   }
   ExprId Held(Slot slot);
   void Save(BlockId block, Slot slot, SlotValue& value, bool before, bool emit);
+  void PutInto(ExprId place, BlockId block, SlotValue& value, bool before, bool emit);
   void RewriteWords(BlockId block, const Slots& in);
   std::optional<LinearForm> CenterForm(BlockId block, const Word& word, const Slots& in) const;
   void RewriteCenter(BlockId block, Word& word, const Slots& in);
@@ -217,6 +242,13 @@ class DimensionPass {
   bool polar_ = false;                                  // some program has polar words
   bool poles_ = false;                                  // some program sets a pole or changes the plane
 
+  std::vector<std::array<VariableId, kSlots>> held_;  // per program
+  std::array<SpaceId, kMaxAxes> at_{};                // cells that carry positions over calls
+  std::vector<std::uint8_t> passable_;                // per program, as the masks below
+  std::vector<SlotMask> passes_, returns_;            // positions that it takes, that it gives back
+  std::vector<SlotMask> never_passed_, never_returned_;
+  std::map<std::pair<std::uint32_t, Slot>, BlockId> unknown_callers_;  // program and axis: a call that does not know it
+
   // Of the program at hand.
   ProgramId program_;
   IdRange<BlockId> blocks_;
@@ -226,9 +258,9 @@ class DimensionPass {
   std::vector<SlotMask> carry_live_;     // slots whose held value is used behind the block
   std::vector<SlotMask> carried_;        // slots that arrive in their local
   std::vector<Slots> in_;
-  std::array<VariableId, kSlots> held_{};
   std::optional<ProgramEditor> editor_;
   std::vector<std::pair<BlockId, std::vector<Word>>> rewritten_;  // changed when all blocks were looked at
+  SlotMask unknown_left_ = 0;                                     // positions that some end does not know
   bool ok_ = true;
 };
 

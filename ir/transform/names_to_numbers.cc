@@ -215,7 +215,9 @@ void Allocation::PlaceSpaces() {
     if (SpaceId{space} == space_ || offsets_.contains(space)) continue;
     const Space source = module_.spaces[SpaceId{space}];
     for (const std::uint32_t number : cells) {
-      const std::string name = fmt::format("{}{}", module_.View(source.name), number);
+      // A space of one cell is a name by itself.
+      const std::string name = source.last == source.first ? std::string(module_.View(source.name))
+                                                           : fmt::format("{}{}", module_.View(source.name), number);
       std::uint32_t cell = 0;
       if (const NamesToNumbersConfig::Pin* pin = PinOf({}, name)) {
         cell = pin->cell;

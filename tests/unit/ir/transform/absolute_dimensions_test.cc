@@ -253,5 +253,68 @@ TEST_CASE("frames that no coordinates can take are refused") {
   }
 }
 
+TEST_CASE("a position crosses calls in a cell when increments on the other side need it") {
+  diag::Sink sink;
+  CHECK(Absolute("  @m:1 : axis X = 1; axis Y = 2\n"
+                 "  @m:2 : call name S calls S\n"
+                 "  @m:3 : axis X incremental = 5\n"
+                 "  @m:4 : call name S calls S passes 2\n"
+                 "program S sub @m:0\n"
+                 "  @m:5 : axis X incremental = 1; axis Y = 7\n"
+                 "  @m:6 : return plain\n",
+                 sink) ==
+        "program M main\n"
+        "axis X absolute = 1; axis Y absolute = 2\n"
+        "assign AT_X[0] = 1\n"
+        "call name S calls S\n"
+        "axis X absolute = add(AT_X[0], 5)\n"
+        "assign AT_X[0] = add(AT_X[0], 5)\n"
+        "call name S calls S passes 2\n"
+        "program S sub\n"
+        "axis X absolute = add(AT_X[0], 1); axis Y absolute = 7\n"
+        "assign AT_X[0] = add(AT_X[0], 1)\n"
+        "return plain\n");
+  CHECK_FALSE(sink.HasErrors());
+}
+
+TEST_CASE("a return beside a move: the position is in its cell before the block acts") {
+  diag::Sink sink;
+  CHECK(Absolute("  @m:1 : axis X = 1\n"
+                 "  @m:2 : call name S calls S\n"
+                 "  @m:3 : axis X incremental = 5\n"
+                 "program S sub @m:0\n"
+                 "  @m:5 : axis X incremental = 1; return auxiliary\n",
+                 sink) ==
+        "program M main\n"
+        "axis X absolute = 1\n"
+        "assign AT_X[0] = 1\n"
+        "call name S calls S\n"
+        "axis X absolute = add(AT_X[0], 5)\n"
+        "program S sub\n"
+        "assign variable POS_X = AT_X[0]\n"
+        "assign AT_X[0] = add(variable POS_X, 1)\n"
+        "axis X absolute = add(variable POS_X, 1); return auxiliary\n");
+  CHECK_FALSE(sink.HasErrors());
+}
+
+TEST_CASE("a position does not cross a call that one caller makes without knowing it, or that moves the zero point") {
+  constexpr std::string_view kIncrement =
+      "program S sub @m:0\n"
+      "  @m:5 : axis X incremental = 1\n"
+      "  @m:6 : return plain\n";
+  for (const std::string& text :
+       {"  @m:1 : axis Y = 1\n  @m:2 : call name S calls S\n" + std::string(kIncrement),
+        "  @m:1 : axis X = 1\n  @m:2 : call name S calls S\n  @m:3 : work-offset #55\n  @m:4 : call name S calls S\n" +
+            std::string(kIncrement),
+        "  @m:1 : axis X = 1\n  @m:2 : modal-call name S calls S\n  @m:3 : axis Y = 1\n" + std::string(kIncrement),
+        std::string("  @m:1 : axis X = 1\n  @m:2 : call name S calls S\n  @m:3 : axis X incremental = 1\n"
+                    "program S sub @m:0\n  @m:5 : work-offset #55\n  @m:6 : return plain\n")}) {
+    CAPTURE(text);
+    diag::Sink sink;
+    Absolute(text, sink);
+    CHECK(sink.HasErrors());
+  }
+}
+
 }  // namespace
 }  // namespace ncport::ir::transform

@@ -85,7 +85,14 @@ bool DimensionPass::UsesForFrame(BlockId id, Slot slot) const {
   if (moved == 0 || state.untouched || state.kind != FrameState::Kind::kKnown) return false;
   if (!shift && WordOf(id, WordOp::kRadius) != nullptr && !KeepsDecimals(state.matrix)) return true;
   if (state.matrix.IsDiagonal()) return shift && ((moved >> (slot - kShift)) & 1U) != 0;
-  return true;
+  if (shift) return true;
+  // An axis that the block names, or that the frame ties to none that moves, may stand anywhere.
+  if (AxisStep(id, slot) == Step::kAbsolute) return false;
+  for (std::uint8_t axis = 0; axis < 3; ++axis) {
+    const bool tied = axis == slot || state.matrix.at[axis][slot] != 0 || state.matrix.at[slot][axis] != 0;
+    if (tied && axis != slot && ((moved >> axis) & 1U) != 0) return true;
+  }
+  return (moved >> slot & 1U) != 0;
 }
 
 SlotMask DimensionPass::LiveThroughFrame(BlockId id, SlotMask behind) const {

@@ -381,7 +381,7 @@ void NumberKinds::Follow(ProgramId program) {
 }
 
 NumberKind NumberKinds::At(ProgramId program, BlockId block, ExprId expr) {
-  if (modal_) return Of(expr);
+  if (modal_ || graphs_.Of(program).Opaque()) return Of(expr);
   if (flow_.program != program) Follow(program);
   const auto before = flow_.before.find(block);
   if (before == flow_.before.end()) return Of(expr);

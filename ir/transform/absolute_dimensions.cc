@@ -527,6 +527,12 @@ void DimensionPass::Flow() {
     FindCarryLive();
     in_.assign(blocks_.count, Slots{});
     if (blocks_.count == 0) return;
+    if (graph.Opaque()) {  // any block may follow any other
+      for (Slots& slots : in_) {
+        for (SlotValue& value : slots) value.kind = SlotValue::Kind::kUnknown;
+      }
+      return;
+    }
     in_[0] = EntrySlots();
     std::set<std::uint32_t> work{0};
     // As soon as a place is found where a local must hold the value, all is followed anew: sums found on the way

@@ -45,6 +45,15 @@ TEST_CASE("an increment is the position that it leads to; in a loop that is held
   CHECK_FALSE(sink.HasErrors());
 }
 
+TEST_CASE("where a part with computed ends may run any block, no increment has a known start") {
+  diag::Sink sink;
+  Absolute("  @m:1 : repeat-part first expression R[1]\n"
+           "  @m:2 : axis X = 1\n"
+           "  @m:3 : axis X incremental = 2\n",
+           sink);
+  CHECK(sink.HasErrors());
+}
+
 TEST_CASE("opening angles become centres and end points (sinumerik-8.3)") {
   diag::Sink sink;
   CHECK(Absolute("  @m:1 : axis X = 0; axis Y = 0\n"

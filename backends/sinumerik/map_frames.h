@@ -7,7 +7,7 @@
 namespace ncport::backends::sinumerik {
 
 /// Exact where one kind is used alone, and shifts name the same axes each time: all else is a finding. Run after
-/// EmptyValues, which decides whether a word is there.
+/// LowerVacantValues, which decides whether a word is there.
 bool MapFrames(const RaiseInput& input, Translation& out, diag::Sink& sink);
 
 }  // namespace ncport::backends::sinumerik

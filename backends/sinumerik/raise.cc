@@ -20,8 +20,8 @@
 #include "ir/builder.h"
 #include "ir/transform/adapt_expressions.h"
 #include "ir/transform/conditional_blocks.h"
-#include "ir/transform/empty_values.h"
 #include "ir/transform/expand_cycles.h"
+#include "ir/transform/lower_vacant_values.h"
 #include "ir/transform/numbers_to_names.h"
 #include "ir/transform/resolve_increments.h"
 #include "ir/transform/resolve_jumps.h"
@@ -153,7 +153,7 @@ bool MapSystemVariables(const RaiseInput& input, Translation& out, diag::Sink& s
   return ok;
 }
 
-NumbersToNamesConfig CellConfig(const RaiseInput& input, const EmptyValuesResult& empty) {
+NumbersToNamesConfig CellConfig(const RaiseInput& input, const VacantValuesResult& empty) {
   NumbersToNamesConfig config;
   config.letter_of = input.argument_letter;
   for (const dialects::VariableSpace& space : input.profile->variables) {
@@ -172,7 +172,7 @@ NumbersToNamesConfig CellConfig(const RaiseInput& input, const EmptyValuesResult
 }
 
 /// Letters whose absence the output would not notice.
-void TellTakenForGiven(const RaiseInput& input, const EmptyValuesResult& empty, Translation& out) {
+void TellTakenForGiven(const RaiseInput& input, const VacantValuesResult& empty, Translation& out) {
   std::map<ir::ProgramId, std::string> letters;
   for (const auto& [program, cell] : empty.taken_for_given)
     letters[program] += fmt::format(" {}", input.argument_letter(cell));
@@ -184,7 +184,7 @@ void TellTakenForGiven(const RaiseInput& input, const EmptyValuesResult& empty, 
 
 /// Common cells that are read as they were before the run: they are other memory on the target, and volatile ones are
 /// empty after power-on and reset, which no R parameter ever is.
-void TellReadAtEntry(const EmptyValuesResult& empty, Translation& out) {
+void TellReadAtEntry(const VacantValuesResult& empty, Translation& out) {
   constexpr std::uint32_t kFirstVolatile = 100, kLastVolatile = 199;  // fanuc-3.1
   std::string cells, volatile_cells;
   for (const CellMapping& cell : out.cells) {
@@ -302,7 +302,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   // Jumps before emptiness: that pass makes blocks, and only the source's own text decides where a jump goes.
   for (const ir::ProgramId program : module.programs.Ids())
     ok = ResolveJumps(module, program, kLabelPrefix, sink) && ok;
-  EmptyValuesConfig empty_config;
+  ir::analysis::VacancyConfig empty_config;
   if (input.config != nullptr) {
     empty_config.holds_number = [&](std::uint32_t cell) {
       const std::string name = fmt::format("#{}", cell);
@@ -318,7 +318,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
              std::ranges::find(input.config->given, name) != input.config->given.end();
     };
   }
-  const EmptyValuesResult empty = EmptyValues(module, machine, empty_config, sink);
+  const VacantValuesResult empty = LowerVacantValues(module, machine, empty_config, sink);
   ok = empty.ok && ok;
   if (!ok) return false;
   TellTakenForGiven(input, empty, out);

@@ -14,8 +14,8 @@ bool ArrangeTexts(const RaiseInput& input, Translation& out, diag::Sink& sink);
 /// dwell in a block of its own, modes that would end another one (groups 13 to 15).
 bool ArrangeWords(const RaiseInput& input, Translation& out, diag::Sink& sink);
 
-/// Radius before centre; words of an arc where none is certain to be in force are refused. Behind EmptyValues, which
-/// decides which words are there, and ExpandCycles: beside a drilling mode R is a level.
+/// Radius before centre; words of an arc where none is certain to be in force are refused. Behind LowerVacantValues,
+/// which decides which words are there, and ExpandCycles: beside a drilling mode R is a level.
 bool SettleArcs(const RaiseInput& input, Translation& out, diag::Sink& sink);
 
 /// Work offsets by [offsets]; G54 to G57 are themselves.

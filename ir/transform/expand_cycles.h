@@ -2,8 +2,8 @@
 // rapid to the level, feed to the depth, back. Level, depth and dwell that the program computes are held in locals, so
 // that later places drill as the first one. Which cycle and which data are in force follows from the flow.
 //
-// Run after EmptyValues (a word of a cycle is there or not) and before NumbersToNames. Afterwards no Cycle, CycleValue
-// and ReturnLevel word of holes is left.
+// Run after LowerVacantValues (a word of a cycle is there or not) and before NumbersToNames. Afterwards no Cycle,
+// CycleValue and ReturnLevel word of holes is left.
 #pragma once
 
 #include "base/diag/sink.h"

@@ -10,8 +10,8 @@
 
 #include "ir/analysis/call_graph.h"
 #include "ir/builder.h"
-#include "ir/transform/empty_values.h"
-#include "ir/transform/index_range.h"
+#include "ir/transform/lower_vacant_values.h"
+#include "ir/analysis/index_range.h"
 #include "ir/transform/new_local.h"
 #include "ir/transform/program_editor.h"
 #include "ir/transform/rewrite_exprs.h"
@@ -48,8 +48,7 @@ class Naming {
   void Define(ProgramId program);
   [[nodiscard]] std::string NameOf(Key key) const;
   [[nodiscard]] std::optional<Key> KeyOf(const Expr& expr) const;
-  void Refuse(ProgramId program, BlockId block, std::string_view what) {
-    static_cast<void>(program);
+  void Refuse(BlockId block, std::string_view what) {
     result_.ok = false;
     sink_.Report(diag::Code::kNotExpressible, module_.RangeOf(module_.blocks[block]), what,
                  "a language with named variables");
@@ -134,7 +133,7 @@ void Naming::FindUses() {
         if ((word.op == WordOp::kCall || word.op == WordOp::kModalCall) && word.Extra<CallId>().Valid()) {
           for (const ArgId arg : module_.calls[word.Extra<CallId>()].args) look(module_.args[arg].value);
         }
-        if (open) Refuse(program, block, "a variable whose computed number is not bounded");
+        if (open) Refuse(block, "a variable whose computed number is not bounded");
       }
     }
   }
@@ -160,7 +159,7 @@ void Naming::FindUses() {
 }
 
 std::optional<Naming::Block> Naming::CellsOf(const Expr& expr) const {
-  const auto range = IndexRangeOf(module_, ExprId{std::size_t{expr.a}});
+  const auto range = analysis::IndexRangeOf(module_, ExprId{std::size_t{expr.a}});
   if (!range) return std::nullopt;
   for (const std::uint32_t space : common_spaces_) {
     const Space& record = module_.spaces[SpaceId{std::size_t{space}}];
@@ -362,7 +361,7 @@ void Naming::LowerCalls(ProgramId program) {
       const std::vector<Key>& order = parameters_[call.program.value];
       if (call.new_level && shared_[call.program.value] != 0) {
         if (word.op == WordOp::kModalCall) {
-          Refuse(program, block, "a modal call of a program that others call with their locals");
+          Refuse(block, "a modal call of a program that others call with their locals");
           continue;
         }
         ShareArguments(program, block, call, editor);

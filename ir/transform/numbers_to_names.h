@@ -30,7 +30,7 @@ struct NumbersToNamesConfig {
   std::vector<Pin> pins;
   /// Common cells from here on take the target's cells from the first one up, in step; others from the last one down.
   std::uint32_t first_in_step = 100;
-  /// Local cells that programs read as their caller left them (EmptyValuesResult).
+  /// Local cells that programs read as their caller left them (VacantValuesResult).
   std::set<std::pair<ProgramId, std::uint32_t>> read_at_entry;
   std::set<std::uint32_t> written_at_end;  // common cells whose final values are compared
 };

@@ -8,12 +8,12 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <set>
 #include <string_view>
 #include <utility>
 
 #include "base/diag/sink.h"
+#include "ir/analysis/vacancy.h"
 #include "ir/machine.h"
 #include "ir/module.h"
 
@@ -24,27 +24,20 @@ inline constexpr std::uint16_t kGivenArgument = 1000;
 /// Name of the space of truth values.
 inline constexpr std::string_view kGivenSpace = "given";
 
-struct EmptyValuesConfig {
-  /// Common cells that hold a number before the run, as the user declares; none = no cell.
-  std::function<bool(std::uint32_t cell)> holds_number;
-  /// Arguments that every call of a program without callers here gives, as the user declares; none = none. Taken only
-  /// where the program does not ask itself whether it has the value.
-  std::function<bool(ProgramId program, std::uint32_t cell)> given;
-};
-
-struct EmptyValuesResult {
+struct VacantValuesResult {
   bool ok = true;
   /// Local cells that a program reads as its caller left them; programs that nothing calls included.
   std::set<std::pair<ProgramId, std::uint32_t>> read_at_entry;
   /// Common cells that are read on some way as they were before the run, declared ones included.
   std::set<std::uint32_t> common_at_entry;
-  /// Arguments that were taken for given (EmptyValuesConfig::given).
+  /// Arguments that were taken for given (VacancyConfig::given).
   std::set<std::pair<ProgramId, std::uint32_t>> taken_for_given;
   /// Common cells that every run of a main program to its end has written.
   std::set<std::uint32_t> written_at_end;
 };
 
 /// The whole module. A common variable whose emptiness matters and is not known is a finding (NC6001) at its block.
-EmptyValuesResult EmptyValues(Module& module, const Machine& source, const EmptyValuesConfig& config, diag::Sink& sink);
+VacantValuesResult LowerVacantValues(Module& module, const Machine& source, const analysis::VacancyConfig& config,
+                                     diag::Sink& sink);
 
 }  // namespace ncport::ir::transform

@@ -7,7 +7,7 @@
 
 #include "ir/module.h"
 
-namespace ncport::ir::transform {
+namespace ncport::ir::analysis {
 
 struct IndexRange {
   std::uint32_t first = 0, last = 0;  // inclusive, after rounding
@@ -16,4 +16,4 @@ struct IndexRange {
 /// None: not bounded, below 0, or wider than any range of variables.
 std::optional<IndexRange> IndexRangeOf(const Module& module, ExprId index);
 
-}  // namespace ncport::ir::transform
+}  // namespace ncport::ir::analysis

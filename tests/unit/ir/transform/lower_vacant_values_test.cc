@@ -1,4 +1,4 @@
-#include "ir/transform/empty_values.h"
+#include "ir/transform/lower_vacant_values.h"
 
 #include <doctest/doctest.h>
 
@@ -31,14 +31,14 @@ struct Fixture {
     block.Last().flags |= Word::kVanishesVacant;
     block.Finish();
   }
-  std::string Run(ProgramBuilder& program, const EmptyValuesConfig& config = {}) {
+  std::string Run(ProgramBuilder& program, const analysis::VacancyConfig& config = {}) {
     program.Finish();
-    result = EmptyValues(module, Machine{}, config, sink);
+    result = LowerVacantValues(module, Machine{}, config, sink);
     TextBuffer out;
     Dump(module, out, {.places = false});
     return std::string(out.View());
   }
-  EmptyValuesResult result;
+  VacantValuesResult result;
 };
 
 bool Holds(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
@@ -96,7 +96,7 @@ TEST_CASE("a common variable that may be empty is refused unless it is declared"
     Fixture f;
     ProgramBuilder program(f.module, "MAIN");
     Fixture::Move(program.Block(), 0, f.e.Cell(f.common, 101));
-    EmptyValuesConfig config;
+    analysis::VacancyConfig config;
     config.holds_number = [&](std::uint32_t) { return declared; };
     f.Run(program, config);
     CHECK(f.result.ok == declared);

@@ -1,10 +1,10 @@
-#include "ir/transform/index_range.h"
+#include "ir/analysis/index_range.h"
 
 #include <doctest/doctest.h>
 
 #include "ir/builder.h"
 
-namespace ncport::ir::transform {
+namespace ncport::ir::analysis {
 namespace {
 
 TEST_CASE("an index is bounded by its own text or not at all") {
@@ -37,4 +37,4 @@ TEST_CASE("an index is bounded by its own text or not at all") {
 }
 
 }  // namespace
-}  // namespace ncport::ir::transform
+}  // namespace ncport::ir::analysis

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <set>
 #include <string>
 #include <utility>
@@ -31,10 +32,11 @@ class Pass {
   void Run() {
     for (const BlockId id : module_.programs[program_].blocks) {
       const Block& block = module_.blocks[id];
-      if (block.label.Valid()) labels_.emplace(module_.View(block.label));
+      if (block.label.Valid()) labels_.insert(Key(module_.View(block.label)));
     }
     for (const BlockId id : module_.programs[program_].blocks) {
       const Block block = module_.blocks[id];
+      if ((block.flags & Block::kRefused) != 0) continue;  // never runs
       std::vector<Word> before, rest;
       ExprId condition;
       for (const WordId word_id : block.words) {
@@ -58,18 +60,21 @@ class Pass {
     const auto put = [&](const std::vector<Word>& words, bool marks) {
       Block made = editor_.MakeBlock(id);
       made.skip_level = block.skip_level;
+      made.flags = static_cast<std::uint8_t>(block.flags & ~Block::kMainBlock);
+      const auto take_place = [&](Block& place) {
+        place.number = block.number;
+        place.number_digits = block.number_digits;
+        place.label = block.label;
+        place.flags = static_cast<std::uint8_t>(place.flags | (block.flags & Block::kMainBlock));
+      };
       if (std::exchange(first, false)) {
         // A structure mark carries neither a label nor a number that jumps look for.
         if (!marks && (block.label.Valid() || block.number != Block::kNoNumber)) {
           Block place = editor_.MakeBlock(id);
-          place.number = block.number;
-          place.number_digits = block.number_digits;
-          place.label = block.label;
+          take_place(place);
           editor_.InsertBefore(id, place);
         } else {
-          made.number = block.number;
-          made.number_digits = block.number_digits;
-          made.label = block.label;
+          take_place(made);
         }
         made.comments = block.comments;
       }
@@ -102,10 +107,17 @@ class Pass {
     editor_.Remove(id);
   }
 
+  /// Labels compare without regard to case in some languages: new ones differ in every one.
+  static std::string Key(std::string_view label) {
+    std::string key(label);
+    for (char& c : key) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    return key;
+  }
+
   StringId NewLabel() {
     std::string label;
     do label = fmt::format("{}{}", prefix_, next_++);
-    while (!labels_.insert(label).second);
+    while (!labels_.insert(Key(label)).second);
     return module_.strings.Intern(label);
   }
 

@@ -36,7 +36,8 @@ Statement KindOf(const Word& word) {
   }
 }
 
-/// Does evaluating `value` read what `place` writes? Places reached by an index count as the whole array or space.
+/// Does evaluating `value` read what `place` writes? Places reached by an index count as the whole array, space or
+/// system variable.
 bool Reads(const Module& module, ExprId value, ExprId place) {
   if (!value.Valid()) return false;
   const Expr& target = module.exprs[place];
@@ -51,10 +52,17 @@ bool Reads(const Module& module, ExprId value, ExprId place) {
       const bool same_number = read.op == ExprOp::kCell && target.op == ExprOp::kCell ? read.b == target.b : true;
       reads = reads || (space_of(read) == space_of(target) && same_number);
     } else {
-      reads = reads || (read.op != ExprOp::kSystem && target.op != ExprOp::kSystem && read.a == target.a);
+      reads = reads || ((read.op == ExprOp::kSystem) == (target.op == ExprOp::kSystem) && read.a == target.a);
     }
   });
   return reads;
+}
+
+/// The place that the word writes, of lists the first element or the array that they fill.
+ExprId PlaceOf(const Module& module, const Word& word) {
+  if (word.op == WordOp::kAssign) return word.Extra<ExprId>();
+  if (word.op == WordOp::kAssignList) return module.assign_lists[word.Extra<AssignListId>()].place;
+  return {};
 }
 
 }  // namespace
@@ -76,7 +84,7 @@ void SplitStatements(Module& module, ProgramId program) {
     if (conditional || macros + (words > 0 ? 1U : 0U) + flows <= 1) continue;
     // The block itself becomes the last statement; the others go in front of it and take its marks along.
     std::vector<std::vector<Word>> statements;
-    std::vector<Word> nc, flow;
+    std::vector<Word> nc, flow, last;
     for (std::size_t i = 0; i < all.size(); ++i) {
       Word word = all[i];
       const Statement kind = KindOf(word);
@@ -87,8 +95,8 @@ void SplitStatements(Module& module, ProgramId program) {
       if (word.value.Valid()) {
         bool changed_later = false;
         for (std::size_t later = i + 1; later < all.size(); ++later) {
-          if (all[later].op == WordOp::kAssign)
-            changed_later = changed_later || Reads(module, word.value, all[later].Extra<ExprId>());
+          const ExprId place = PlaceOf(module, all[later]);
+          changed_later = changed_later || (place.Valid() && Reads(module, word.value, place));
         }
         if (changed_later) {
           const VariableId held = NewLocal(module, program, "HELD", module.exprs[word.value].type);
@@ -101,10 +109,13 @@ void SplitStatements(Module& module, ProgramId program) {
           word.value = make.Variable(held);
         }
       }
-      (kind == Statement::kFlow ? flow : nc).push_back(word);
+      // What ends the program waits for the calls of its block.
+      const bool ends = flows > 0 && word.phase == Phase::kLast;
+      (kind == Statement::kFlow ? flow : ends ? last : nc).push_back(word);
     }
     if (!nc.empty()) statements.push_back(nc);
     for (const Word& word : flow) statements.push_back({word});
+    if (!last.empty()) statements.push_back(last);
     for (std::size_t i = 0; i < statements.size(); ++i) {
       Block made = editor.MakeBlock(id);
       made.skip_level = block.skip_level;

@@ -1,5 +1,6 @@
 // One statement a block, for targets whose macro statements stand alone: assignments from left to right, then the NC
-// words together, then jumps and calls. The order of effects stays what the source's phases say.
+// words together, then jumps and calls, then what ends the program. The order of effects stays what the source's phases
+// say.
 #pragma once
 
 #include "ir/module.h"

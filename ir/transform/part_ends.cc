@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <functional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ir/transform/program_editor.h"
@@ -43,7 +45,11 @@ void MarkPartEnds(Module& module, ProgramId program, bool ignore_case) {
   ProgramEditor editor(module, program, "part_ends");
   std::set<std::string, std::less<>> taken;
   for (const BlockId id : module.programs[program].blocks) {
-    if (module.blocks[id].label.Valid()) taken.emplace(module.View(module.blocks[id].label));
+    if (!module.blocks[id].label.Valid()) continue;
+    // Some languages compare labels without regard to case: new ones differ in every one.
+    std::string key(module.View(module.blocks[id].label));
+    for (char& c : key) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    taken.insert(std::move(key));
   }
   std::uint32_t number = 0;
   for (const Ending& ending : endings) {
@@ -72,7 +78,7 @@ bool LeavesAtEndOnly(const Module& module, const analysis::LabelTable& labels,
   for (BlockId at = range.first; at <= range.last; at = BlockId{std::size_t{at.value} + 1}) {
     const Block& block = module.blocks[at];
     const auto stays = [&](const Jump& jump) {
-      if (jump.target.kind == TargetKind::kProgramStart) return false;
+      if (jump.target.kind == TargetKind::kProgramStart || jump.target.kind == TargetKind::kExpression) return false;
       const BlockId to = labels.Find(jump.target, at, jump.search);
       return to.Valid() ? inside(to) : jump.quiet;
     };

@@ -36,7 +36,10 @@ void ResolveAxes(Module& module, const analysis::ModalFlow& flow) {
       for (const WordId word_id : module.blocks[id].words) {
         const Word word = module.words[word_id];
         if (word.op != WordOp::kAxisComputed) continue;
-        const auto axis = AxisOf(module, word.Extra<ExprId>(), flow.At(program, id).plane);
+        // Values are taken before the block's own plane holds; a block that changes the plane stays as it is.
+        Plane plane = flow.Before(program, id).plane;
+        if (plane != flow.At(program, id).plane) plane = Plane::kUnknown;
+        const auto axis = AxisOf(module, word.Extra<ExprId>(), plane);
         if (!axis) continue;
         Word& plain = module.words[word_id];
         plain.op = WordOp::kAxis;

@@ -1,5 +1,5 @@
 // Axis words whose axis an expression gives (AX[..]) become plain ones where the axis is known from the text: a named
-// axis, or an axis of the plane in force ($P_AXN1..3).
+// axis, or an axis of the plane in force ($P_AXN1..3), but in a block that changes the plane.
 #pragma once
 
 #include "ir/analysis/modal_state.h"

@@ -88,11 +88,17 @@ class Pass {
 
   std::optional<double> StepOf(BlockId block, const Word& word) {
     if (source_.word_error == WordError::kNone) return std::nullopt;
-    if (source_.word_error == WordError::kRound) {
-      if (word.op == WordOp::kAxis && IsRotary(word.index)) return source_.increment;
-      if (state_.units == Units::kMm || state_.units == Units::kMmGeometry) return source_.increment;
-      if (state_.units == Units::kInch || state_.units == Units::kInchGeometry) return source_.increment / 10;
+    if (source_.word_error == WordError::kTruncate) {
+      // 0.29 times 1000 may be less than 290: cutting would show the noise of binary numbers.
+      ok_ = false;
+      sink_.Report(diag::Code::kNotExpressible, module_.RangeOf(module_.blocks[block], word),
+                   "a computed word that the control cuts to its least increment",
+                   "a control that takes the whole value");
+      return std::nullopt;
     }
+    if (word.op == WordOp::kAxis && IsRotary(word.index)) return source_.increment;
+    if (state_.units == Units::kMm || state_.units == Units::kMmGeometry) return source_.increment;
+    if (state_.units == Units::kInch || state_.units == Units::kInchGeometry) return source_.increment / 10;
     ok_ = false;
     sink_.Report(diag::Code::kUnknownModalState, module_.RangeOf(module_.blocks[block], word),
                  "the unit of lengths (mm or inch)", "the control rounds this word to it");

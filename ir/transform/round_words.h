@@ -9,8 +9,9 @@
 
 namespace ncport::ir::transform {
 
-/// All programs of the module; afterwards no word has kRoundsValue. An increment whose unit (mm, inch) or distance mode
-/// is not one value is a finding (NC5006); returns false then.
+/// All programs of the module; afterwards no word has kRoundsValue. A word under a distance mode that is not one value
+/// counts as an increment. A word to be rounded whose unit (mm, inch) is not one value is a finding (NC5006), one of a
+/// control that cuts instead another (NC6001); returns false then.
 bool RoundWords(Module& module, const Machine& source, const ModalState& sub_entry, diag::Sink& sink);
 
 }  // namespace ncport::ir::transform

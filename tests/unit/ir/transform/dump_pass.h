@@ -67,7 +67,7 @@ inline std::string BlocksOf(const Module& module, Show show = Show::kPlain) {
 inline std::string After(std::string_view before, diag::Sink& sink,
                          const std::function<bool(Module&, diag::Sink&)>& pass, Show show = Show::kPlain) {
   Result<Module> module = ParseDump(before, sink);
-  REQUIRE(module.Ok());
+  REQUIRE_MESSAGE(module.Ok(), (sink.Empty() ? "" : sink.All().front().message));
   const bool done = pass(module.Value(), sink);
   if (done) CHECK(FindViolation(module.Value()).value_or("") == "");
   return BlocksOf(module.Value(), show);

@@ -4,15 +4,20 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <string>
 #include <unordered_map>
+#include <utility>
+#include <vector>
 
+#include "ir/analysis/cfg.h"
 #include "ir/analysis/labels.h"
 #include "ir/builder.h"
 #include "ir/structure.h"
 #include "ir/transform/linear_form.h"
 #include "ir/transform/program_editor.h"
 #include "ir/transform/rewrite_exprs.h"
+#include "ir/transform/word_values.h"
 
 namespace ncport::ir::transform {
 
@@ -38,9 +43,14 @@ class Pass {
         "take the tool change out of the program, so that the main program calls the parts before and behind it";
   }
   bool OnStraightPath(ProgramId program, BlockId at);
-  bool PartsAreIndependent(ProgramId program, BlockId at, const Block& block);
+  bool PartsAreIndependent(ProgramId program, BlockId at, const Block& block, const std::set<std::uint32_t>& needed);
+  std::set<std::uint32_t> ReadBeforeSet(ProgramId program, BlockId at);
   void Split(ProgramId program, BlockId at);
-  ProgramId CopyParameters(ProgramId program, ProgramId part);
+  using Twins = std::unordered_map<std::uint32_t, VariableId>;
+  Twins CopyVariables(ProgramId program, ProgramId part);
+  void CopyDefinitions(const IdRange<BlockId>& head, ProgramId part, const Twins& twins,
+                       const std::set<std::uint32_t>& needed);
+  bool MayChange(const Call& call, ProgramId caller);
 
   Module& module_;
   diag::Sink& sink_;
@@ -81,8 +91,23 @@ bool Pass::OnStraightPath(ProgramId program, BlockId at) {
     Refuse(here, "a tool change inside a loop, a branch, or a block that may be skipped");
     return false;
   }
-  const analysis::LabelTable labels(module_, program);
+  const analysis::FlowGraphs graphs(module_);
+  const analysis::LabelTable& labels = graphs.LabelsOf(program);
   for (const BlockId id : blocks) {
+    for (const analysis::Edge& edge : graphs.Of(program).Successors(id)) {
+      using analysis::EdgeKind;
+      const bool leaves =
+          edge.kind == EdgeKind::kEnd || edge.kind == EdgeKind::kReturn || edge.kind == EdgeKind::kReturnToTarget;
+      // Its caller would go on with the tool change.
+      if (leaves && id < at && graphs.Of(program).Reachable(id)) {
+        Refuse(here, "a tool change behind a block that may end the program before it");
+        return false;
+      }
+      if (edge.kind == EdgeKind::kComputed) {
+        Refuse(here, "a tool change that a jump leads over");
+        return false;
+      }
+    }
     for (const WordId word_id : module_.blocks[id].words) {
       const Word& word = module_.words[word_id];
       std::vector<JumpId> jumps;
@@ -98,9 +123,9 @@ bool Pass::OnStraightPath(ProgramId program, BlockId at) {
       }
       for (const JumpId jump : jumps) {
         const BlockId to = labels.Find(module_.jumps[jump].target, id, module_.jumps[jump].search);
-        const bool computed = module_.jumps[jump].target.kind == TargetKind::kExpression;
         // A jump from before to the tool change itself stays in the first part: it becomes its end.
-        if (computed || (to.Valid() && (id < at) != (to < at) && to != at)) {
+        const bool over = id < at ? to > at : to <= at;
+        if (to.Valid() && over) {
           Refuse(here, "a tool change that a jump leads over");
           return false;
         }
@@ -110,56 +135,51 @@ bool Pass::OnStraightPath(ProgramId program, BlockId at) {
   return true;
 }
 
-/// Nothing but the arguments crosses the cut.
-bool Pass::PartsAreIndependent(ProgramId program, BlockId at, const Block& block) {
-  std::unordered_map<std::uint32_t, int> written_before, read_behind;
-  const IdRange<BlockId> blocks = module_.programs[program].blocks;
-  std::vector<std::uint32_t> set_behind;
+/// Nothing but the arguments crosses the cut. `needed`: variables that the part behind may read before it sets them.
+bool Pass::PartsAreIndependent(ProgramId program, BlockId at, const Block& block,
+                               const std::set<std::uint32_t>& needed) {
   const auto own = [&](const Expr& expr) {
     return (expr.op == ExprOp::kVariable || expr.op == ExprOp::kElement) &&
-           module_.variables[VariableId{expr.a}].owner == program;
+           module_.variables[VariableId{std::size_t{expr.a}}].owner == program;
   };
-  for (const BlockId id : blocks) {
+  bool names_own = false;
+  for (const WordId word : block.words) {
+    VisitValues(module_, module_.words[word], [&](ExprId value) {
+      VisitReads(module_, value, [&](ExprId node) { names_own = names_own || own(module_.exprs[node]); });
+    });
+  }
+  if (names_own) {
+    Refuse(block, "a tool change whose words read variables of the program");
+    return false;
+  }
+  std::set<std::uint32_t> written;
+  const auto write = [&](ExprId place) {
+    if (own(module_.exprs[place])) written.insert(module_.exprs[place].a);
+  };
+  for (const BlockId id : module_.programs[program].blocks) {
+    if (id >= at) break;
     for (const WordId word_id : module_.blocks[id].words) {
       const Word& word = module_.words[word_id];
-      if (word.op == WordOp::kMessage || word.op == WordOp::kDefine) continue;
-      const bool before = id < at;
-      const auto read = [&](ExprId expr) {
-        VisitReads(module_, expr, [&](ExprId node) {
-          const Expr& place = module_.exprs[node];
-          if (own(place) && !before && std::find(set_behind.begin(), set_behind.end(), place.a) == set_behind.end())
-            ++read_behind[place.a];
+      VisitPlaces(module_, word, write);
+      VisitReferences(module_, word, write);
+      if (word.op != WordOp::kDefine) continue;
+      // A start value that is computed may be another one in the second part.
+      VisitValues(module_, word, [&](ExprId initial) {
+        VisitReads(module_, initial, [&](ExprId node) {
+          const Expr& read = module_.exprs[node];
+          if (!own(read) || written.contains(read.a)) written.insert(word.extra);
         });
-      };
-      read(word.value);
-      if (word.op == WordOp::kCall && word.Extra<CallId>().Valid()) {
-        for (const ArgId arg : module_.calls[word.Extra<CallId>()].args) read(module_.args[arg].value);
-      }
-      if (word.op == WordOp::kFor) {
-        const For& loop = module_.fors[word.Extra<ForId>()];
-        read(loop.end);
-        const Expr& counter = module_.exprs[loop.variable];
-        if (own(counter) && before) ++written_before[counter.a];
-        if (own(counter) && !before) set_behind.push_back(counter.a);
-      }
-      if (word.op != WordOp::kAssign) continue;
-      const Expr& place = module_.exprs[word.Extra<ExprId>()];
-      if (!own(place)) continue;
-      if (before) {
-        ++written_before[place.a];
-      } else if (place.op == ExprOp::kVariable) {
-        set_behind.push_back(place.a);
-      }
+      });
     }
   }
-  for (const auto& [variable, count] : read_behind) {
-    const Variable& record = module_.variables[VariableId{variable}];
+  for (const std::uint32_t variable : needed) {
+    const Variable& record = module_.variables[VariableId{std::size_t{variable}}];
     if (record.by_reference) {
       Refuse(block, fmt::format("a tool change in a program with the reference {}", module_.View(record.name)));
       return false;
     }
     // A local that nobody set holds its start value in both parts.
-    if (!written_before.contains(variable)) continue;
+    if (!written.contains(variable)) continue;
     Refuse(block, fmt::format("a tool change between the block that sets {} and one that reads it",
                               module_.View(record.name)));
     return false;
@@ -167,9 +187,68 @@ bool Pass::PartsAreIndependent(ProgramId program, BlockId at, const Block& block
   return true;
 }
 
-/// The part gets variables of its own for all of the program's; its blocks are rewritten to them.
-ProgramId Pass::CopyParameters(ProgramId program, ProgramId part) {
-  std::unordered_map<std::uint32_t, VariableId> twins;
+/// Variables of the program that the blocks behind `at` may read before they set them, by the flow from there on; an
+/// element is never known to be set.
+std::set<std::uint32_t> Pass::ReadBeforeSet(ProgramId program, BlockId at) {
+  const analysis::FlowGraphs graphs(module_);
+  const analysis::Cfg& graph = graphs.Of(program);
+  const IdRange<BlockId> all = module_.programs[program].blocks;
+  const std::uint32_t first = at.value + 1, end = all.begin + all.count;
+  const std::size_t variables = module_.variables.Size();
+  using Set = std::vector<bool>;                    // by variable: set on every way
+  std::vector<std::optional<Set>> in(end - first);  // none: no way leads there
+  if (first == end) return {};
+  in[0] = Set(variables, false);
+  std::set<std::uint32_t> needed;
+  const auto through = [&](BlockId id, Set set) {
+    const Block& block = module_.blocks[id];
+    bool sure = block.skip_level == Block::kNoSkip;
+    for (const WordId word_id : block.words) {
+      const Word& word = module_.words[word_id];
+      const auto own = [&](std::uint32_t variable) {
+        return module_.variables[VariableId{std::size_t{variable}}].owner == program;
+      };
+      VisitValues(module_, word, [&](ExprId value) {
+        VisitReads(module_, value, [&](ExprId node) {
+          const Expr& read = module_.exprs[node];
+          if (read.op != ExprOp::kVariable && read.op != ExprOp::kElement) return;
+          if (own(read.a) && (read.op == ExprOp::kElement || !set[read.a])) needed.insert(read.a);
+        });
+      });
+      if (word.op == WordOp::kWhen || word.op == WordOp::kSkipRest) sure = false;
+      if (!sure) continue;
+      if (word.op == WordOp::kDefine) set[word.extra] = true;
+      VisitPlaces(module_, word, [&](ExprId place) {
+        if (module_.exprs[place].op == ExprOp::kVariable) set[module_.exprs[place].a] = true;
+      });
+    }
+    return set;
+  };
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::uint32_t i = first; i < end; ++i) {
+      if (!in[i - first]) continue;
+      const Set out = through(BlockId{std::size_t{i}}, *in[i - first]);
+      for (const analysis::Edge& edge : graph.Successors(BlockId{std::size_t{i}})) {
+        if (!edge.to.Valid() || edge.to.value < first) continue;
+        std::optional<Set>& to = in[edge.to.value - first];
+        Set joined = to ? *to : out;
+        if (to) {
+          for (std::size_t v = 0; v < variables; ++v) joined[v] = joined[v] && out[v];
+        }
+        if (to && *to == joined) continue;
+        to = std::move(joined);
+        changed = true;
+      }
+    }
+  }
+  return needed;
+}
+
+/// The part gets variables of its own for all of the program's; its blocks are rewritten to them. Returns them by the
+/// program's.
+Pass::Twins Pass::CopyVariables(ProgramId program, ProgramId part) {
+  Twins twins;
   const IdRange<VariableId> parameters = module_.programs[program].parameters;
   IdRange<VariableId> copied{static_cast<std::uint32_t>(module_.variables.Size()), parameters.count};
   for (const VariableId id : parameters) {
@@ -194,19 +273,77 @@ ProgramId Pass::CopyParameters(ProgramId program, ProgramId part) {
     copy.a = twin->second.value;
     return module.AddExpr(copy, module.expr_places.Of(id));
   });
-  return part;
+  return twins;
+}
+
+/// Definitions of variables that the part reads as they start: it begins with them.
+void Pass::CopyDefinitions(const IdRange<BlockId>& head, ProgramId part, const Twins& twins,
+                           const std::set<std::uint32_t>& needed) {
+  if (module_.programs[part].blocks.Empty()) return;
+  ProgramEditor editor(module_, part, "split_at_tool_change");
+  for (const BlockId id : head) {
+    std::vector<Word> words;
+    for (const WordId word_id : module_.blocks[id].words) {
+      Word word = module_.words[word_id];
+      if (word.op != WordOp::kDefine || !needed.contains(word.extra)) continue;
+      word.extra = twins.at(word.extra).value;
+      words.push_back(word);
+    }
+    if (words.empty()) continue;
+    Block made = editor.MakeBlock(id);
+    editor.SetWords(made, words);
+    editor.InsertBefore(module_.programs[part].blocks[0], made);
+  }
+  editor.Apply();
+}
+
+/// The arguments of the call may be others when they are passed again behind the first part.
+bool Pass::MayChange(const Call& call, ProgramId caller) {
+  std::set<std::uint32_t> references;
+  const IdRange<VariableId> parameters = module_.programs[call.program].parameters;
+  for (const ArgId id : call.args) {
+    const Arg& arg = module_.args[id];
+    if (!arg.value.Valid() || arg.position >= parameters.count) continue;
+    if (!module_.variables[parameters[arg.position]].by_reference) continue;
+    const Expr& place = module_.exprs[arg.value];
+    if (place.op == ExprOp::kVariable || place.op == ExprOp::kElement) references.insert(place.a);
+  }
+  bool may_change = false;
+  for (const ArgId id : call.args) {
+    const Arg& arg = module_.args[id];
+    if (!arg.value.Valid()) continue;
+    const bool by_reference =
+        arg.position < parameters.count && module_.variables[parameters[arg.position]].by_reference;
+    VisitReads(module_, arg.value, [&](ExprId node) {
+      const Expr& read = module_.exprs[node];
+      if (read.op != ExprOp::kVariable && read.op != ExprOp::kElement) {
+        may_change = true;
+        return;
+      }
+      if (by_reference && node == arg.value) return;
+      const Variable& variable = module_.variables[VariableId{std::size_t{read.a}}];
+      const bool of_caller = variable.owner == caller && !variable.by_reference &&
+                             (variable.scope == Scope::kLocal || variable.scope == Scope::kParameter);
+      may_change = may_change || !of_caller || references.contains(read.a);
+    });
+  }
+  return may_change;
 }
 
 void Pass::Split(ProgramId program, BlockId at) {
   const Block tool = module_.blocks[at];
-  if (!OnStraightPath(program, at) || !PartsAreIndependent(program, at, tool)) return;
+  if (!OnStraightPath(program, at)) return;
+  const std::set<std::uint32_t> needed = ReadBeforeSet(program, at);
+  if (!PartsAreIndependent(program, at, tool, needed)) return;
   // Definitions of the second part: locals start anew there.
   const IdRange<BlockId> blocks = module_.programs[program].blocks;
   Program part = module_.programs[program];
   part.name = module_.strings.Intern(fmt::format("{}_{}", module_.View(part.name), result_.programs.size() + 2));
   part.blocks = {at.value + 1, blocks.begin + blocks.count - at.value - 1};
   const ProgramId part_id = module_.programs.Add(part);
-  CopyParameters(program, part_id);
+  const Twins twins = CopyVariables(program, part_id);
+  const IdRange<BlockId> head{blocks.begin, at.value - blocks.begin};
+  CopyDefinitions(head, part_id, twins, needed);
 
   // The first part ends where the tool change stood; a jump to the tool change ends there too.
   ProgramEditor editor(module_, program, "split_at_tool_change");
@@ -219,7 +356,6 @@ void Pass::Split(ProgramId program, BlockId at) {
   end.number = tool.number;
   end.number_digits = tool.number_digits;
   editor.SetWords(end, {ret});
-  const IdRange<BlockId> head{blocks.begin, at.value - blocks.begin};
   IdRange<BlockId> cut{static_cast<std::uint32_t>(module_.blocks.Size()), head.count + 1};
   for (const BlockId id : head) {
     const Block copy = module_.blocks[id];
@@ -248,17 +384,15 @@ void Pass::Split(ProgramId program, BlockId at) {
           Refuse(tool, "a tool change in a program that is called with a number of passes");
           continue;
         }
-        for (const ArgId arg : call.args) {
-          bool reads = false;
-          VisitReads(module_, module_.args[arg].value, [&](ExprId node) {
-            const ExprOp op = module_.exprs[node].op;
-            reads = reads || op == ExprOp::kCell || op == ExprOp::kCellAt || op == ExprOp::kSystem;
-          });
-          if (reads) Refuse(tool, "a tool change in a program whose arguments may change before its second part runs");
-        }
+        if (MayChange(call, caller))
+          Refuse(tool, "a tool change in a program whose arguments may change before its second part runs");
         Block change = calls.MakeBlock(at);
-        change.words = tool.words;
+        std::vector<Word> words;
+        for (const WordId tool_word : tool.words) words.push_back(module_.words[tool_word]);
+        calls.SetWords(change, words);
         change.comments = tool.comments;
+        change.skip_level = block.skip_level;
+        change.flags = block.flags;
         calls.InsertAfter(id, change);
         Call second = call;
         second.program = part_id;
@@ -271,6 +405,8 @@ void Pass::Split(ProgramId program, BlockId at) {
         Word again = word;
         again.extra = module_.calls.Add(second).value;
         Block next = calls.MakeBlock(id);
+        next.skip_level = block.skip_level;
+        next.flags = block.flags;
         calls.SetWords(next, {again});
         calls.InsertAfter(id, next);
       }

@@ -66,6 +66,7 @@ prove::Maps MapsOf(const ir::Module& source, const backends::Translation& transl
     pair.target_radius = use.target_radius;
     pair.source_radius = use.source_radius;
     pair.target_name = use.target_name;
+    maps.offset_words = maps.offset_words || use.offset_only;
     maps.tools.push_back(pair);
   }
   for (const backends::OffsetUse& use : translation.offsets) {

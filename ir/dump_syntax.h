@@ -11,7 +11,8 @@ inline constexpr std::string_view kDumpTitle = "ncport-ir 1";
 inline constexpr std::string_view kExprFlagNames[] = {"tolerance", "implicit",      "operands-to-int", "vacant-as-zero",
                                                       "round-cut", "numeric-model", "vacant-differs"};
 inline constexpr std::string_view kNumberFlagNames[] = {"point", "plus", "as-text", "computed"};
-inline constexpr std::string_view kWordFlagNames[] = {"equal", "vanishes", "rounds", "added", "freezes", "increments"};
+inline constexpr std::string_view kWordFlagNames[] = {"equal",   "vanishes",   "rounds",    "added",
+                                                      "freezes", "increments", "keeps-tool"};
 inline constexpr std::string_view kBlockFlagNames[] = {"main-block", "skip-digit", "added", "refused"};
 
 constexpr bool IsNameStart(char c) {

@@ -165,6 +165,7 @@ struct Word {
   static constexpr std::uint8_t kFreezes = 16;        // SpeedMode: the present speed stays in force (G97)
   static constexpr std::uint8_t kIncrements = 32;  // the value counts units that the machine's increment and the modes
                                                    // in force decide (a number without decimal point, milliseconds)
+  static constexpr std::uint8_t kKeepsTool = 64;   // a tool word for its offset only: the tool that is in stays in
 
   /// Typed view of `extra`.
   template <class IdType>

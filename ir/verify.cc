@@ -423,7 +423,7 @@ class Verifier {
 
   bool WordOk(const Word& word, bool refused) {
     const bool ok = Enumerator(word.op, "word") && Enumerator(word.phase, "phase") && Enumerator(word.mode, "mode") &&
-                    Check((word.flags & 0xC0U) == 0, "unknown flag") &&
+                    Check((word.flags & 0x80U) == 0, "unknown flag") &&
                     Check(word.spelling < m_.spellings.size(), "unknown spelling") && Operand(word.value, "value");
     if (!ok) return false;
     const ValueUse use = ValueUseOf(word.op);

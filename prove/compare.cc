@@ -223,6 +223,10 @@ const Event* Walk::Next() {
         if (!event.added) TakeSpindle(event, own_spindles_);
         continue;
       case EventKind::kTool:
+        // The offset of the tool that is in: a turret says it by its tool word, the other side by a word of its own.
+        if (maps_.offset_words && !event.tool_waits && now_.tool_known && now_.tool == event.number &&
+            now_.tool_name == event.text)
+          continue;
         tool_since_motion_ = true;
         if (TakeState(event)) return &event;
         continue;

@@ -51,6 +51,7 @@ struct Maps {
   bool cross_language = true;               // alarms agree by class, else by their first word
   bool tool_change_added = false;           // M6 of the target, where the source's T changes the tool by itself
   bool source_registers = false;            // the source names length and radius by registers, the target edges
+  bool offset_words = false;                // tool words of the target that only name an offset of the tool that is in
   bool separate_registers = false;          // the target names length and radius by registers of their own (a mill)
   bool tools_mapped = false;                // tools and offsets go through `tools`; one without an entry differs
 };

@@ -22,6 +22,7 @@ struct ToolUse {
   std::uint32_t source_radius = 0;                 // register of such a mill; 0 = none
   std::uint32_t target_tool = 0, target_offset = 0;
   std::uint32_t target_radius = 0;  // mills: D register; 0 = none
+  bool offset_only = false;         // somewhere only for an offset of the tool that is in: a D word of the source
 };
 struct OffsetUse {
   std::uint32_t source = 0, source_extension = 0, target = 0, target_extension = 0;

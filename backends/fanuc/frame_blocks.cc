@@ -49,7 +49,8 @@ bool HoldsWords(const Module& module, BlockId id) { return !module.blocks[id].wo
 bool IsTool(const Module& module, const Translation& out, BlockId id) {
   for (const ir::WordId word_id : module.blocks[id].words) {
     const Word& word = module.words[word_id];
-    if (word.op != WordOp::kInert || word.spelling == 0 || (word.flags & Word::kAdded) != 0) continue;
+    if (word.op != WordOp::kInert || word.spelling == 0 || (word.flags & (Word::kAdded | Word::kKeepsTool)) != 0)
+      continue;
     const std::string_view text = module.View(module.spellings[word.spelling].text);
     if (std::any_of(out.tools.begin(), out.tools.end(), [&](const ToolUse& use) { return use.target_words == text; }))
       return true;

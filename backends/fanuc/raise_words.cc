@@ -171,6 +171,37 @@ void TextsToComments(const RaiseInput&, Translation& out, diag::Sink& sink) {
   }
 }
 
+namespace {
+
+/// Digits of the station in the T word of a turret: "T0303" without its offset. Empty: no such word.
+std::string_view StationOf(const RaiseInput& input, std::string_view words) {
+  const std::size_t at = words.find('T');
+  const std::size_t end = std::min(words.find_first_not_of("0123456789", at + 1), words.size());
+  const std::size_t offset = input.profile->OffsetDigits();
+  return at == std::string_view::npos || end - at - 1 <= offset ? std::string_view()
+                                                                : words.substr(at + 1, end - at - 1 - offset);
+}
+
+/// The tool that is in, by its word: `T3`, `T="ROUGH"`.
+void TakeTool(std::string_view word, ToolUse& use) {
+  if (word.starts_with("T=\"")) {
+    use.source_name = word.substr(3, word.size() - 4);
+  } else {
+    use.source_tool = NumberBehind(word, 'T');
+  }
+}
+
+/// All rows of the tool name one station: its D words change offsets and turn no turret.
+bool StaysIn(const RaiseInput& input, std::string_view tool, const dialects::WordMapping& mapping) {
+  const std::string_view station = StationOf(input, mapping.target);
+  return !station.empty() && std::ranges::all_of(input.config->tools, [&](const dialects::WordMapping& row) {
+    const bool same_tool = row.source == tool || row.source.starts_with(std::string(tool) + " ");
+    return !same_tool || StationOf(input, row.target) == station;
+  });
+}
+
+}  // namespace
+
 bool MapTools(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   Module& module = out.module;
   const bool lathe = input.profile->IsLathe();
@@ -234,6 +265,7 @@ bool MapTools(const RaiseInput& input, Translation& out, diag::Sink& sink) {
         ok = false;
         continue;
       }
+      if (tool == nullptr) TakeTool(last_tool, use);
       use.source_words = last_tool;
       if (edge != nullptr) {
         const auto number = WholeNumber(module, edge->value);
@@ -252,8 +284,10 @@ bool MapTools(const RaiseInput& input, Translation& out, diag::Sink& sink) {
       if (mapping == nullptr) {
         auto& finding = sink.Report(diag::Code::kUnmappedTool, range, use.source_words);
         const std::string quote = use.source_words.find('"') == std::string::npos ? "\"" : "'";
-        finding.help = fmt::format("add to ncport.toml, with the words of your machine:  [tools]  {0}{1}{0} = \"{2}\"",
-                                   quote, use.source_words, example);
+        const bool off = lathe && !changes_by_m6 && edge != nullptr && use.source_edge == 0;
+        finding.help = fmt::format(
+            "add to ncport.toml, with the words of your machine:  [tools]  {0}{1}{0} = \"{2}\"{3}", quote,
+            use.source_words, off ? "T0100" : example, off ? "  (the station of the tool, its offset off)" : "");
         ok = false;
         continue;
       }
@@ -280,9 +314,16 @@ bool MapTools(const RaiseInput& input, Translation& out, diag::Sink& sink) {
         use.target_tool = number;
         use.target_offset = own_offset ? number : NumberBehind(use.target_words, 'H');
       }
+      const bool keeps_tool =
+          lathe && !changes_by_m6 && tool == nullptr && !change && StaysIn(input, last_tool, *mapping);
+      use.offset_only = keeps_tool;
       const auto known = std::find_if(out.tools.begin(), out.tools.end(),
                                       [&](const ToolUse& other) { return other.source_words == use.source_words; });
-      if (known == out.tools.end()) out.tools.push_back(use);
+      if (known == out.tools.end()) {
+        out.tools.push_back(use);
+      } else {
+        known->offset_only = known->offset_only || keeps_tool;
+      }
       // T stands alone in its block (mazak-lathe-4.4); what stood beside it follows.
       Block made = editor.MakeBlock(id);
       made.number = block.number;
@@ -290,7 +331,9 @@ bool MapTools(const RaiseInput& input, Translation& out, diag::Sink& sink) {
       made.label = block.label;
       made.skip_level = block.skip_level;
       made.comments = block.comments;
-      editor.SetWords(made, {TextWord(module, use.target_words)});
+      Word text = TextWord(module, use.target_words);
+      if (keeps_tool) text.flags |= Word::kKeepsTool;
+      editor.SetWords(made, {text});
       module.blocks[id].comments = {};
       module.blocks[id].label = {};
       module.blocks[id].number = Block::kNoNumber;

@@ -84,7 +84,7 @@ TEST_CASE("ir verify: words") {
   CHECK(Has(After([](Module& m) { Find(m, WordOp::kSpindle).extra = 50; }), "spindle state 50"));
   CHECK(Has(After([](Module& m) { Find(m, WordOp::kVerbatim).extra = kFar; }), "text is string"));
   CHECK(Has(After([](Module& m) { Find(m, WordOp::kVerbatim).index = 2; }), "is no mark"));
-  CHECK(Has(After([](Module& m) { Find(m, WordOp::kStop).flags = 0x40; }), "unknown flag"));
+  CHECK(Has(After([](Module& m) { Find(m, WordOp::kStop).flags = 0x80; }), "unknown flag"));
   CHECK(Has(After([](Module& m) { Find(m, WordOp::kStop).spelling = 4; }), "unknown spelling"));
   CHECK(Has(After([](Module& m) { Find(m, WordOp::kStop).phase = static_cast<Phase>(9); }), "phase 9"));
   CHECK(Has(After([](Module& m) { Find(m, WordOp::kAxis).mode = static_cast<ValueMode>(99); }), "mode 99"));

@@ -9,7 +9,8 @@
 
 namespace ncport::prove {
 
-/// Collects events. Texts are copied, so that they outlive the run. Clear() keeps the memory for the next run.
+/// Collects events; an arc with additional turns counts as its turns, one circle each, and the rest. Texts are copied,
+/// so that they outlive the run. Clear() keeps the memory for the next run.
 class RecordedTrace final : public exec::EventSink {
  public:
   /// `max_events`: a run with more is stopped.
@@ -22,6 +23,8 @@ class RecordedTrace final : public exec::EventSink {
   [[nodiscard]] bool Full() const { return full_; }
 
  private:
+  bool Keep(const exec::Event& event);
+
   std::size_t max_events_;
   bool full_ = false;
   std::vector<exec::Event> events_;

@@ -91,10 +91,6 @@ class Mapper {
     const IdRange<BlockId> blocks = module_.programs[program].blocks;
     const Block block = module_.blocks[blocks[index]];
     const Word word = module_.words[id];
-    const dialects::FanucSettings& fanuc = input_.profile->fanuc;
-    if (input_.profile->IsMazakLathe() || !fanuc.corner_words.Is(dialects::FanucSettings::CornerWords::kComma))
-      return Refuse(block, word, "a chamfer or rounding (no word with a comma)",
-                    "write the corner as moves of its own");
     const auto kind = static_cast<ChamferKind>(word.index);
     if (kind == ChamferKind::kRoundModal)
       return Refuse(block, word, "a rounding of all corners (RNDM)", "write RND at each corner");
@@ -114,7 +110,7 @@ class Mapper {
     if (second->feed)
       return Refuse(block, word, "a corner in front of a new feed: whose feed it has differs between controls",
                     "write F in the block of the corner or later");
-    if (kind != ChamferKind::kLength) return;
+    if (kind != ChamferKind::kLength || CornersToMoves(*input_.profile) != Corners::kNone) return;
     // The length of a chamfer is the hypotenuse: its legs follow where the sides stand at right angles (sinumerik-8.9).
     const auto one_axis = [](std::uint16_t axes) { return (axes & (axes - 1)) == 0; };
     if (!one_axis(first->axes) || !one_axis(second->axes) || first->axes == second->axes)
@@ -139,6 +135,12 @@ class Mapper {
 };
 
 }  // namespace
+
+Corners CornersToMoves(const dialects::Profile& profile) {
+  const bool words =
+      !profile.IsMazakLathe() && profile.fanuc.corner_words.Is(dialects::FanucSettings::CornerWords::kComma);
+  return !words ? Corners::kAll : profile.IsLathe() ? Corners::kByLength : Corners::kNone;
+}
 
 bool MapCorners(const RaiseInput& input, Translation& out, diag::Sink& sink) { return Mapper(input, out, sink).Run(); }
 

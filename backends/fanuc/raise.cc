@@ -394,6 +394,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   dimensions.target = profile.name;
   dimensions.declared = DeclaredRanges(input, module);
   dimensions.work_frames_in = worked_in;
+  dimensions.corners_to_moves = CornersToMoves(profile);
   for (const ir::ProgramId program : input.source->programs.Ids()) {
     const bool split_up = std::ranges::any_of(split.programs, [&](const auto& p) { return p.whole == program; });
     dimensions.frames.restores.push_back(input.source->programs[program].saves_modal_state && !split_up);

@@ -644,7 +644,26 @@ void DimensionPass::RewriteWords(BlockId id, const Slots& in) {
     if (word.op == WordOp::kAxis) words.back().mode = ValueMode::kAbsolute;
   }
   if (plane_words_[IndexOf(id)].Moves() && !LowerPlaneWords(id, in, words)) return;
-  if (config_.work_frames_in && frames_.Any() && !ApplyFrame(id, in, words)) return;
+  if (cut_.contains(id.value) && WordOf(id, WordOp::kMotion) == nullptr) {
+    Word linear;  // the corner in front may be an arc
+    linear.op = WordOp::kMotion;
+    linear.index = static_cast<std::uint8_t>(Motion::kLinear);
+    linear.phase = DefaultPhaseOf(WordOp::kMotion);
+    words.insert(words.begin(), linear);
+  }
+  std::vector<std::vector<Word>> before, after;
+  if (Has(module_, module_.blocks[id], WordOp::kTurns) && !LowerTurns(id, in, words, before)) return;
+  if (CornerMoves(id) && !LowerCorner(id, in, words, after)) return;
+  if (config_.work_frames_in && frames_.Any()) {
+    for (auto* pieces : {&before, &after}) {
+      for (std::vector<Word>& piece : *pieces) {
+        if (!ApplyFrame(id, in, piece)) return;
+      }
+    }
+    if (!ApplyFrame(id, in, words)) return;
+  }
+  for (const std::vector<Word>& piece : before) Insert(id, piece, true);
+  for (const std::vector<Word>& piece : after) Insert(id, piece, false);
   rewritten_.emplace_back(id, std::move(words));
 }
 
@@ -686,6 +705,7 @@ bool DimensionPass::RunProgram(ProgramId program) {
   Flow();
   editor_.emplace(module_, program, "absolute_dimensions");
   rewritten_.clear();
+  cut_.clear();
   for (std::uint32_t i = 0; i < blocks_.count; ++i) {
     Slots slots = in_[i];
     // Where no way leads, the increments are those of dead text. They are taken from the modes as they stand.

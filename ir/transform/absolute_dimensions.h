@@ -5,14 +5,15 @@
 // subprogram starts with increments, or its caller goes on with some, the position crosses the call in a cell (AT_X).
 //
 // What only the source has is written as end points and centres: arcs by opening angle or intermediate point, polar
-// words about their pole. Where that needs a start point, a pole or a radius that is not known, it is refused.
+// words about their pole, additional full turns as circles. Where that needs a start point, a pole or a radius that is
+// not known, it is refused.
 //
 // Programmable frames can be worked into the coordinates: then a block has the words of all axes that its move changes,
 // arcs their centres, senses and sizes as the frame makes them. A frame that is not the same on every way to a move, a
 // computed angle or factor, and what keeps no circle a circle are refused.
 //
 // Afterwards all Axis words are kAbsolute and all Center words kStep (from the start point, radius); Distance,
-// Diameter, OpeningAngle, Via, Pole and polar words are gone, and lengths are mm.
+// Diameter, OpeningAngle, Via, Turns, Pole and polar words are gone, and lengths are mm.
 #pragma once
 
 #include <cstdint>
@@ -34,6 +35,9 @@ struct AbsoluteDimensionsConfig {
   std::string_view target;                        // its name, for findings
   bool work_frames_in = false;  // frames go into the coordinates, their words away; else they stay where they are
   FrameFlowOptions frames;
+  /// Chamfers and roundings between straight moves that become moves of their own: none, chamfers by their length, all.
+  enum class Corners : std::uint8_t { kNone, kByLength, kAll };
+  Corners corners_to_moves = Corners::kNone;
 };
 
 /// Programs that find the position in cells when they start or end: nobody else may call them without filling these.

@@ -309,6 +309,7 @@ bool DimensionPass::ApplyFrame(BlockId id, const Slots& in, std::vector<Word>& w
   const FrameState frame = frames_.Before(program_, id);
   if (frame.kind == FrameState::Kind::kNoWay) return true;
   const ModalState state = flow_.At(program_, id);
+  Motion motion = state.motion;
   const Word* first_move = nullptr;
   bool linear = false, center = false, sized = false, cycle = false, computed = false, comp = false;
   for (const Word& word : words) {
@@ -322,17 +323,19 @@ bool DimensionPass::ApplyFrame(BlockId id, const Slots& in, std::vector<Word>& w
     cycle = cycle || word.op == WordOp::kCycleValue || word.op == WordOp::kCycle;
     computed = computed || word.op == WordOp::kAxisComputed;
     comp = comp || word.op == WordOp::kCutterComp;
+    // A piece of the block may move in another way than the block itself.
+    if (word.op == WordOp::kMotion) motion = static_cast<Motion>(word.index);
   }
   if (first_move == nullptr) return true;
   const Word at = *first_move;
   if (frame.kind == FrameState::Kind::kUnknown)
     return Refuse(id, at, "a move under a frame that is not the same on every way that leads here",
                   "set the frame in the program that moves, and take it back before its end");
-  const bool arc = IsArc(state.motion) && (linear || center);
+  const bool arc = IsArc(motion) && (linear || center);
   const auto [first, second] = AxesOf(state.plane);
   const std::optional<PlaneImage> image = ImageOf(frame.matrix, first, second);
   if (!frame.untouched) {
-    const bool other = (state.motion >= Motion::kThread && state.motion <= Motion::kProbe) || computed || cycle;
+    const bool other = (motion >= Motion::kThread && motion <= Motion::kProbe) || computed || cycle;
     if (other && !(frame.matrix.IsIdentity() && !computed && !cycle))
       return Refuse(id, at, "a thread, probing, cycle or computed axis under a frame");
     if ((arc || center || sized || comp || Sided(state.comp)) && !image)
@@ -356,7 +359,7 @@ bool DimensionPass::ApplyFrame(BlockId id, const Slots& in, std::vector<Word>& w
   Word sense;
   sense.op = WordOp::kMotion;
   sense.phase = DefaultPhaseOf(WordOp::kMotion);
-  const bool clockwise = (state.motion == Motion::kArcCw) != (!frame.untouched && image->mirrored);
+  const bool clockwise = (motion == Motion::kArcCw) != (!frame.untouched && image->mirrored);
   sense.index = static_cast<std::uint8_t>(clockwise ? Motion::kArcCw : Motion::kArcCcw);
   words.insert(words.begin(), sense);
   return true;

@@ -201,6 +201,14 @@ class DimensionPass {
   void RemovePole(BlockId block, const Slots& in);
   void AddAxes(const PlaneWords& plane, const PlanePoint& point, std::vector<Word>& words);
   void AddCenters(const PlaneWords& plane, const PlanePoint& center, std::vector<Word>& words);
+  /// Full turns in front of the arc as circles of their own, each with its share of the way along the other axes.
+  bool LowerTurns(BlockId block, const Slots& in, std::vector<Word>& words, std::vector<std::vector<Word>>& before);
+  [[nodiscard]] bool CornerMoves(BlockId block) const;
+  /// The corner behind the block as a move of its own.
+  bool LowerCorner(BlockId block, const Slots& in, std::vector<Word>& words, std::vector<std::vector<Word>>& after);
+  /// Way of the next straight move in the plane as a number; none: it is no such move.
+  std::optional<PlanePoint> NextWay(BlockId block, const PlanePoint& corner);
+  void Insert(BlockId block, const std::vector<Word>& words, bool before);
   bool Refuse(BlockId block, const Word& word, std::string_view what, std::string_view help = "");
   /// Every value that the words of the block can have lies from `low` to `high`.
   [[nodiscard]] bool Within(BlockId block, const Word& word, double low, double high) const;
@@ -254,6 +262,7 @@ class DimensionPass {
   IdRange<BlockId> blocks_;
   bool names_senses_ = false;            // arcs turn the other way somewhere: each one names its sense
   std::vector<PlaneWords> plane_words_;  // per block
+  std::map<std::uint32_t, double> cut_;  // by block: how much of its length the corner in front of it takes, mm
   std::vector<SlotMask> live_;           // per block: slots whose value on arrival is used
   std::vector<SlotMask> carry_live_;     // slots whose held value is used behind the block
   std::vector<SlotMask> carried_;        // slots that arrive in their local

@@ -8,7 +8,8 @@ namespace ncport::ir::transform {
 namespace {
 
 /// In texts here R[1] is a cell; types, and that a number was computed, are left out.
-std::string Absolute(const std::string& blocks, diag::Sink& sink, bool work_frames_in = false) {
+std::string Absolute(const std::string& blocks, diag::Sink& sink, bool work_frames_in = false,
+                     AbsoluteDimensionsConfig::Corners corners = AbsoluteDimensionsConfig::Corners::kNone) {
   const std::string cells = std::regex_replace(blocks, std::regex("R\\["), "cell:real R[");
   const std::string text =
       test::After("ncport-ir 1\nfile m\nspace R 0..99 real kept all zero\nprogram M main @m:0\n" + cells, sink,
@@ -16,6 +17,7 @@ std::string Absolute(const std::string& blocks, diag::Sink& sink, bool work_fram
                     Machine machine;
                     AbsoluteDimensionsConfig config;
                     config.work_frames_in = work_frames_in;
+                    config.corners_to_moves = corners;
                     machine.start.comp = CutterComp::kOff;
                     machine.start.motion = Motion::kLinear;
                     machine.start.plane = Plane::kXY;
@@ -321,6 +323,74 @@ TEST_CASE("a position does not cross a call that one caller makes without knowin
     CAPTURE(text);
     diag::Sink sink;
     Absolute(text, sink);
+    CHECK(sink.HasErrors());
+  }
+}
+
+TEST_CASE("additional turns become circles, the depth runs evenly over the whole angle (sinumerik-8.3)") {
+  diag::Sink sink;
+  CHECK(Absolute("  @m:1 : axis X = 10; axis Y = 0; axis Z = 0\n"
+                 "  @m:2 N20 : motion arc-ccw; axis X = 0; axis Y = 10; axis Z = -5; center I step = -10; turns = 1; "
+                 "feed = 9\n"
+                 "  @m:3 : axis Z = -9; center J step = -10; turns = 1\n"
+                 "  @m:4 : axis X = 10; axis Y = 0; center J step = -10; turns = 0\n",
+                 sink) ==
+        "program M main\n"
+        "axis X absolute = 10; axis Y absolute = 0; axis Z absolute = 0\n"
+        "N20 motion arc-ccw; axis Z absolute = -4; center I step = -10; feed = 9\n"
+        "motion arc-ccw; axis X absolute = 0; axis Y absolute = 10; axis Z absolute = -5; center I step = -10\n"
+        "motion arc-ccw; axis Z absolute = -7; center J step = -10\n"
+        "motion arc-ccw; axis Z absolute = -9; center J step = -10\n"
+        "axis X absolute = 10; axis Y absolute = 0; center J step = -10\n");
+  CHECK_FALSE(sink.HasErrors());
+}
+
+TEST_CASE("turns that cannot be written out are refused") {
+  for (const std::string_view arc :
+       {"axis X = 0; axis Y = 10; radius = 10; turns = 1", "center I step = -10; turns = R[1]",
+        "center I step = -10; turns = 500", "axis Z = -5; center I step = R[1]; axis X = 0; turns = 1"}) {
+    CAPTURE(arc);
+    diag::Sink sink;
+    Absolute("  @m:1 : axis X = 10; axis Y = 0; axis Z = 0\n  @m:2 : motion arc-cw; " + std::string(arc) + "\n", sink);
+    CHECK(sink.HasErrors());
+  }
+}
+
+TEST_CASE("corners between straight moves become moves (sinumerik-8.9)") {
+  diag::Sink sink;
+  const std::string text =
+      "  @m:1 : axis X = 0; axis Y = 0\n"
+      "  @m:2 : axis X = 20; chamfer leg = 5\n"
+      "  @m:3 : axis Y = 20; chamfer length = 2.8284271247461903\n"
+      "  @m:4 : axis X = 40; chamfer round = 4\n"
+      "  @m:5 : axis Y = 40\n"
+      "  @m:6 : axis X incremental = 1\n";
+  CHECK(Absolute(text, sink, false, AbsoluteDimensionsConfig::Corners::kAll) ==
+        "program M main\n"
+        "axis X absolute = 0; axis Y absolute = 0\n"
+        "axis X absolute = 15\n"
+        "motion linear; axis X absolute = 20; axis Y absolute = 5\n"
+        "motion linear; axis Y absolute = 18\n"
+        "motion linear; axis X absolute = 22; axis Y absolute = 20\n"
+        "motion linear; axis X absolute = 36\n"
+        "motion arc-ccw; axis X absolute = 40; axis Y absolute = 24; center I step = 0; center J step = 4\n"
+        "motion linear; axis Y absolute = 40\n"
+        "axis X absolute = 41\n");
+  CHECK_FALSE(sink.HasErrors());
+  const std::string lengths = Absolute(text, sink, false, AbsoluteDimensionsConfig::Corners::kByLength);
+  CHECK(lengths.find("axis X absolute = 20; chamfer leg = 5\n") != std::string::npos);
+  CHECK(lengths.find("chamfer length") == std::string::npos);
+}
+
+TEST_CASE("a corner that is longer than its side, or whose side is computed, is refused") {
+  for (const std::string_view sides :
+       {"axis X = 20; chamfer leg = 25\n  @m:3 : axis Y = 20", "axis X = 20; chamfer leg = 5\n  @m:3 : axis Y = 4",
+        "axis X = 20; chamfer round = 5\n  @m:3 : axis X = 4", "axis X = R[1]; chamfer leg = 5\n  @m:3 : axis Y = 20",
+        "axis X = 20; chamfer leg = 5\n  @m:3 : axis Y = 8; chamfer leg = 4\n  @m:4 : axis X = 40"}) {
+    CAPTURE(sides);
+    diag::Sink sink;
+    Absolute("  @m:1 : axis X = 0; axis Y = 0\n  @m:2 : " + std::string(sides) + "\n", sink, false,
+             AbsoluteDimensionsConfig::Corners::kAll);
     CHECK(sink.HasErrors());
   }
 }

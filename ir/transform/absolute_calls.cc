@@ -209,7 +209,7 @@ void DimensionPass::PutPositions(BlockId id, SlotMask which, Slots& slots, bool 
   for (Slot slot = 0; slot < kMaxAxes; ++slot) {
     for (Slot other = 0; other < kMaxAxes; ++other) {
       if (other == slot || (which >> other & 1U) == 0 || !slots[slot].Known()) continue;
-      if (ReadsPlace(slots[slot].form, CellAt(other))) Save(id, slot, slots[slot], before, emit);
+      if (ReadsPlace(slots[slot].form, CellAt(other))) Save(id, slot, slots, before, emit);
     }
   }
   for (Slot slot = 0; slot < kMaxAxes; ++slot) {

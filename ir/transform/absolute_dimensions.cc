@@ -352,8 +352,28 @@ bool DimensionPass::ReadsShared(const LinearForm& form) const {
   return shared;
 }
 
-void DimensionPass::Save(BlockId id, Slot slot, SlotValue& value, bool before, bool emit) {
-  PutInto(Held(slot), id, value, before, emit);
+/// The value goes to its local. Sums of other slots that read what the local held until then go to their own locals
+/// first; where two read each other, or nobody needs the other, that one is given up.
+void DimensionPass::Save(BlockId id, Slot slot, Slots& slots, bool before, bool emit) {
+  const ExprId place = Held(slot);
+  if (!SameForm(module_, slots[slot].form, FormOf(module_, place))) {
+    const SlotMask needed = live_[IndexOf(id)] | LiveBehind(id);
+    for (Slot other = 0; other < SlotsUsed(); ++other) {
+      if (other == slot || !slots[other].Known() || !ReadsPlace(slots[other].form, place)) continue;
+      const VariableId local = held_[program_.value][other];
+      const bool both =
+          (saving_ >> other & 1U) != 0 || (local.Valid() && ReadsPlace(slots[slot].form, make_.Variable(local)));
+      if (both || (needed >> other & 1U) == 0) {
+        slots[other] = {SlotValue::Kind::kUnknown, {}};
+      } else {
+        saving_ |= MaskOf(slot);
+        Save(id, other, slots, before, emit);
+        saving_ &= ~MaskOf(slot);
+      }
+      if (!slots[slot].Known()) return;
+    }
+  }
+  PutInto(place, id, slots[slot], before, emit);
 }
 
 /// The value goes to `place`, before or behind the block; from there on it is what the place holds.
@@ -419,7 +439,7 @@ void DimensionPass::Through(BlockId id, Slots& slots, bool emit) {
           changes = changes || ReadsPlace(value.form, module_.fors[word.Extra<ForId>()].variable);
       }
     }
-    if (changes) Save(id, slot, value, true, emit);
+    if (changes) Save(id, slot, slots, true, emit);
   }
   PassPositions(id, slots, emit);
   if (emit) RewriteWords(id, slots);
@@ -435,7 +455,6 @@ void DimensionPass::Through(BlockId id, Slots& slots, bool emit) {
     if (step == Step::kReturned) {
       // A call that may be skipped leaves the cell as it was filled before, if that was known.
       if (!Conditional(block) || before.Known()) value = {SlotValue::Kind::kKnown, FormOf(module_, CellAt(slot))};
-      if (value.Known() && (carry_live_[index] >> slot & 1U)) Save(id, slot, value, false, emit);
       continue;
     }
     if (step == Step::kComputed) {
@@ -450,11 +469,12 @@ void DimensionPass::Through(BlockId id, Slots& slots, bool emit) {
       value.form = step == Step::kIncremental ? Sum(module_, before.form, named) : named;
     }
     value.kind = SlotValue::Kind::kKnown;
-    if (Conditional(block) && !(before.Known() && SameForm(module_, before.form, value.form))) {
+    if (Conditional(block) && !(before.Known() && SameForm(module_, before.form, value.form)))
       value = {SlotValue::Kind::kUnknown, {}};  // the block may be skipped
-      continue;
-    }
-    if (carry_live_[index] >> slot & 1U) Save(id, slot, value, false, emit);
+  }
+  for (Slot slot = 0; slot < SlotsUsed(); ++slot) {
+    const bool set = StepOf(id, slot) != Step::kNone && slots[slot].Known();
+    if (set && (carry_live_[index] >> slot & 1U) != 0) Save(id, slot, slots, false, emit);
   }
   LeavePositions(id, slots, emit);
   if (!TriggersModal(program_, id)) return;

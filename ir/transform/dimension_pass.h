@@ -157,7 +157,7 @@ class DimensionPass {
     return Sum(module_, {}, FormOf(module_, value), factor);
   }
   ExprId Held(Slot slot);
-  void Save(BlockId block, Slot slot, SlotValue& value, bool before, bool emit);
+  void Save(BlockId block, Slot slot, Slots& slots, bool before, bool emit);
   void PutInto(ExprId place, BlockId block, SlotValue& value, bool before, bool emit);
   void RewriteWords(BlockId block, const Slots& in);
   std::optional<LinearForm> CenterForm(BlockId block, const Word& word, const Slots& in) const;
@@ -269,6 +269,7 @@ class DimensionPass {
   std::vector<Slots> in_;
   std::optional<ProgramEditor> editor_;
   std::vector<std::pair<BlockId, std::vector<Word>>> rewritten_;  // changed when all blocks were looked at
+  SlotMask saving_ = 0;                                           // slots whose locals are being written
   SlotMask unknown_left_ = 0;                                     // positions that some end does not know
   bool ok_ = true;
 };

@@ -153,6 +153,27 @@ TEST_CASE("a polar angle that grows in a loop is held in a local, a variable rad
   CHECK_FALSE(sink.HasErrors());
 }
 
+TEST_CASE("a position that reads a local is taken before the local changes") {
+  diag::Sink sink;
+  CHECK(Absolute("  @m:1 : axis X = 0; axis Y = 0\n"
+                 "  @m:2 : polar-radius = 10; polar-angle = 0\n"
+                 "  @m:3 label L : polar-angle incremental = 15\n"
+                 "  @m:4 : axis X incremental = 1\n"
+                 "  @m:5 : jump backward label L = lt!tolerance:bool(R[2], 4)\n",
+                 sink) ==
+        "program M main\n"
+        "axis X absolute = 0; axis Y absolute = 0\n"
+        "axis X absolute = 10; axis Y absolute = 0\n"
+        "assign variable POLAR_ANGLE = 0\n"
+        "label L axis X absolute = mul(10, call cos(add(variable POLAR_ANGLE, 15))); "
+        "axis Y absolute = mul(10, call sin(add(variable POLAR_ANGLE, 15)))\n"
+        "assign variable POS_X = mul(10, call cos(add(variable POLAR_ANGLE, 15)))\n"
+        "assign variable POLAR_ANGLE = add(variable POLAR_ANGLE, 15)\n"
+        "axis X absolute = add(variable POS_X, 1)\n"
+        "jump backward label L = lt!tolerance:bool(R[2], 4)\n");
+  CHECK_FALSE(sink.HasErrors());
+}
+
 TEST_CASE("polar words without a known pole, angle or radius are refused") {
   for (const std::string_view blocks :
        {"  @m:1 : polar-radius = 5\n", "  @m:1 : polar-angle = 5\n",

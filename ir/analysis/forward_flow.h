@@ -10,6 +10,7 @@
 //               holds what it leaves; a callee with no way back has nothing behind its call. Programs are entered with
 //               the join of all calls, so circles of calls end like loops do. A block that also jumps or ends may leave
 //               before its call: such edges carry both states.
+//   inside      calls that name a block enter at every block with a label or number.
 //   passes      of a call start with what the pass before left.
 //   modal calls run behind each block with motion words where ModalFlow does not exclude them, or not: both. Their
 //               program may run again, with what its own run before left.
@@ -210,6 +211,13 @@ class ForwardFlow {
     Leave(program, unknown);
   }
 
+  /// At its start, or at a block that the call names.
+  void EnterBy(const Call& call, ProgramId program, const State& state) {
+    const bool inside = call.form == CallForm::kBlockRange || call.from_block;
+    if (!inside || graphs_.Of(program).Opaque()) return Enter(program, state);
+    ArriveAtTargets(program, state);
+  }
+
   void Leave(ProgramId program, const State& state) {
     if (!Join({}, exits_[program.value], state)) return;
     for (const BlockId block : callers_[program.value]) Push(block);
@@ -222,19 +230,16 @@ class ForwardFlow {
     if (!site.callee.Valid()) return Back(site, at, client_.Unknown(site.caller));
     const std::optional<State> entry = Into(site, moment, at);
     const Call& call = module_.calls[site.call];
-    if (call.form == CallForm::kBlockRange) {
-      if (entry) ArriveAtTargets(site.callee, *entry);
-      return Back(site, at, client_.Unknown(site.callee));
-    }
-    if (entry) Enter(site.callee, *entry);
+    if (entry) EnterBy(call, site.callee, *entry);
+    if (call.form == CallForm::kBlockRange) return Back(site, at, client_.Unknown(site.callee));
     const std::optional<State> exit = exits_[site.callee.value];
     if (!exit) return std::nullopt;
     State behind = Back(site, at, *exit);
     const bool again = call.passes.Valid() || moment == CallMoment::kModalRun;
     if (entry && again) {
       // With its own locals kept, or with fresh ones.
-      Enter(site.callee, *exit);
-      if (const std::optional<State> next = Into(site, moment, behind)) Enter(site.callee, *next);
+      EnterBy(call, site.callee, *exit);
+      if (const std::optional<State> next = Into(site, moment, behind)) EnterBy(call, site.callee, *next);
     }
     if (graphs_.ReturnsToTarget(site.callee)) ArriveAtTargets(site.caller, behind);
     return behind;

@@ -393,7 +393,7 @@ void ModalFlow::ThroughCall(const Call& call, Walk& walk) {
     const ProgramId runs = module_.calls[active].program;
     quiet = runs.Valid() && module_.programs[runs].saves_modal_state;
   }
-  const bool known = call.program.Valid() && call.form != CallForm::kBlockRange;
+  const bool known = call.program.Valid() && call.form != CallForm::kBlockRange && !call.from_block;
   if (known && quiet) {
     const Summary& summary = summaries_[call.program.value];
     Enter(call.program, walk.state);
@@ -473,8 +473,8 @@ ModalState ModalFlow::At(ProgramId program, BlockId block) const {
 ModalState ModalFlow::Entry(ProgramId program) const { return Decode(entries_[program.value]); }
 
 bool ModalFlow::ModalCallPossible(ProgramId program, BlockId block) const {
-  if (!modal_calls_ || !Reached(program, block)) return false;
-  return at_[block.value].modal_call != kNoCall;
+  // A block that only calls from a block on come to is not followed here.
+  return modal_calls_ && (!Reached(program, block) || at_[block.value].modal_call != kNoCall);
 }
 
 CallId ModalFlow::ActiveModalCall(ProgramId program, BlockId block) const {

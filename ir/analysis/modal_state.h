@@ -38,7 +38,8 @@ class ModalFlow {
   /// are in force in one block only.
   [[nodiscard]] ModalState At(ProgramId program, BlockId block) const;
   [[nodiscard]] ModalState Entry(ProgramId program) const;
-  /// False if no modal call is active on any way to the block: its moves run no other program.
+  /// False if no modal call is active on any way to the block: its moves run no other program. Where no way leads, one
+  /// may be.
   [[nodiscard]] bool ModalCallPossible(ProgramId program, BlockId block) const;
   /// The one modal call whose program may run behind the block; none: there is none, or not one on every way.
   [[nodiscard]] CallId ActiveModalCall(ProgramId program, BlockId block) const;

@@ -123,6 +123,9 @@ TEST_CASE("ir forward_flow: calls join where they enter, and leave what the call
   CHECK(Flow(Main("@- : tool = 1\n@- : call name GONE\n@-\n")) == Lines{"0 1 ? in 0 out ?"});
   CHECK(Flow(Main("@- : tool = 1\n@- : call block-range S calls S from number 1 to number 1\n@-\n") +
              Sub("@-\n@- N1\n@-\n")) == Lines{"0 1 ? in 0 out ?", "0 ? ? in 0 out ?"});
+  // A call that names a block enters there, or at another one that has a name.
+  CHECK(Flow(Main("@- : tool = 1\n@- : call name - from-block calls M from number 10\n@- : program-end\n@-\n"
+                  "@- N10 : tool = 2\n@- : return plain\n")) == Lines{"0 1 2 - 1 2 in 0 out 2"});
   // A further pass starts with what the one before left.
   CHECK(Flow(Main("@- : tool = 1\n@- : call name S calls S passes 2\n@-\n") + Sub("@-\n@- : tool = 2\n")) ==
         Lines{"0 1 2 in 0 out 2", "? ? in ? out 2"});

@@ -199,6 +199,12 @@ TEST_CASE("ir modal_state: calls that are not found and block ranges make everyt
   Analysis a("program P main\n@- : call name GONE\n@-\n");
   a.Run();
   CHECK(a.Before(0, 1) == ModalState{});
+  Analysis from(
+      "program P main\n@- : call name - from-block calls P from number 1\n@-\n@- : program-end\n"
+      "@- N1 : distance incremental\n@- : return plain\n");
+  from.Run();
+  CHECK(from.flow->Reached(ProgramId{std::size_t{0}}, BlockId{std::size_t{1}}));
+  CHECK(from.Before(0, 1) == ModalState{});
   Analysis range("program P main\n@- N1 : axis X = 1\n@- : call block-range P calls P from number 1 to number 1\n@-\n");
   range.Run();
   CHECK(range.Before(0, 2) == ModalState{});

@@ -82,8 +82,7 @@ void Printer::PrintComment(const ir::Comment& comment) {
 
 void Printer::PrintCode(const Word& word) {
   const std::uint32_t extra =
-      word.op == WordOp::kSpindle || word.op == WordOp::kProgramEnd || word.op == WordOp::kWorkOffset ? word.extra
-                                                                                                      : Id<void>::kNone;
+      word.op == WordOp::kProgramEnd || word.op == WordOp::kWorkOffset ? word.extra : Id<void>::kNone;
   const dialects::CodeRow* row = dialects::fanuc::Codes(system_).FindMeaning(word.op, word.index, extra);
   NCPORT_CHECK(row != nullptr, "no code for {} {}", ir::NameOf(word.op), word.index);
   Blank();

@@ -118,12 +118,7 @@ constexpr Row kRows[] = {
     M(Everywhere("M1"), Op::kOptionalStop, kNone, Phase::kAfter),
     M(Everywhere("M2"), Op::kProgramEnd, 2, Phase::kLast),
     M(Everywhere("M30"), Op::kProgramEnd, 30, Phase::kLast),
-    M(Texts{"M3", "M3", "M3", "M3", "M3", ""}, Op::kSpindle, static_cast<std::uint32_t>(ir::SpindleState::kCw),
-      Phase::kBefore),
-    M(Texts{"M4", "M4", "M4", "M4", "M4", ""}, Op::kSpindle, static_cast<std::uint32_t>(ir::SpindleState::kCcw),
-      Phase::kBefore),
-    M(Texts{"M5", "M5", "M5", "M5", "M5", ""}, Op::kSpindle, static_cast<std::uint32_t>(ir::SpindleState::kStop),
-      Phase::kAfter),
+    // M3 M4 M5 stand in the profile: which spindle they mean is a fact of the machine.
     M(Texts{"M6", "", "", "", "", "M6"}, Op::kToolChange, kNone, Phase::kBefore),
     M(Everywhere("M9"), Op::kAux, 9, Phase::kAfter),
 };

@@ -2,7 +2,9 @@
 // looks whether the tests' means find it.
 //   - A fault of a writer (raise, printers, tables as printed): programs are read without it, written with it, and read
 //     back and compared without it. It is found if the target is refused, cannot be read or does another thing.
-//   - A fault of a reader (tables as read): programs are run with it; their traces are other than expected.
+//     A text that a golden case holds may not be another one, whatever it does.
+//   - A fault of a reader (tables as read): programs are run with it; their traces are other than expected, or golden
+//     cases of trace, dump and check say something else.
 // A fault that is not found has survived. equivalent.txt lists those that change nothing that a machine could do, with
 // the reason. open.txt says for each source file and each table how many others survive; these numbers may only fall:
 // more survivors than it says have failed, and so has a number that is too high.
@@ -61,6 +63,7 @@ class Hunt {
   [[nodiscard]] bool Wanted(const std::string& name) const { return name.find(only_) != std::string::npos; }
   void Readers(bool quick);
   void Writers(bool quick);
+  void SayGolden();
   std::string JudgeReader(const SeededTable& table) const;
   std::string JudgeWriter(const std::vector<std::size_t>& subjects, const std::function<void()>& on);
 
@@ -68,12 +71,30 @@ class Hunt {
   ScratchFolder scratch_;
   Jobs jobs_;
   std::vector<Subject> subjects_;
+  std::vector<std::string> said_;  // by jobs_.said: what is said without a fault, as a hash
   std::vector<Result> results_;
 };
 
 std::string Lower(std::string text) {
   for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   return text;
+}
+
+bool Reads(const Job& job, const std::string& language) {
+  const auto has = [&](const char* part) { return job.from.find(part) != std::string::npos; };
+  return has(language.c_str()) || (language == "fanuc" && (has("mazak") || has("haas")));
+}
+
+std::string HashOf(const std::string& text) { return std::to_string(std::hash<std::string>{}(text)); }
+
+/// In processes of their own: nothing may be read in this one yet.
+void Hunt::SayGolden() {
+  if (said_.empty()) {
+    said_ = JudgeAll(jobs_.said.size(), [&](std::size_t i) {
+      const auto& [job, shown] = jobs_.said[i];
+      return HashOf(Say(job, shown));
+    });
+  }
 }
 
 /// Programs that have one of the two texts come first; the others of the language follow, since a word can be written
@@ -84,15 +105,17 @@ std::string Hunt::JudgeReader(const SeededTable& table) const {
   const std::string a = Lower(table.text_a), b = Lower(table.text_b);
   for (const bool likely : {true, false}) {
     for (const Job& job : jobs_.read) {
-      if (job.from.find(table.language) == std::string::npos &&
-          !(table.language == "fanuc" &&
-            (job.from.find("mazak") != std::string::npos || job.from.find("haas") != std::string::npos)))
-        continue;
+      if (!Reads(job, table.language)) continue;
       const std::string text = Lower(ReadFileOrDie(job.program.string()));
       if ((text.find(a) != std::string::npos || text.find(b) != std::string::npos) != likely) continue;
       const std::string wrong = CheckTrace(job);
       if (!wrong.empty()) return "found: " + job.name + ": " + OneLine(wrong);
     }
+  }
+  for (std::size_t i = 0; i < jobs_.said.size(); ++i) {
+    const auto& [job, shown] = jobs_.said[i];
+    if (Reads(job, table.language) && HashOf(Say(job, shown)) != said_[i])
+      return "found: " + job.name + " says another thing";
   }
   return "survived: no trace is another one";
 }
@@ -105,19 +128,22 @@ void Hunt::Readers(bool quick) {
     if (quick && ++number % 8 != 0) continue;
     if (table.fault.side == Side::kRead && Wanted(table.name)) tables.push_back(std::move(table));
   }
+  if (!tables.empty()) SayGolden();
   const auto answers = JudgeAll(tables.size(), [&](std::size_t i) { return JudgeReader(tables[i]); });
   for (std::size_t i = 0; i < tables.size(); ++i) results_.push_back({tables[i].name, answers[i]});
 }
 
 std::string Hunt::JudgeWriter(const std::vector<std::size_t>& subjects, const std::function<void()>& on) {
-  std::string changed_in;
+  std::string changed_in, golden;
   for (const std::size_t index : subjects) {
     on();
     bool changed = false;
     const std::string wrong = subjects_[index].Judge(changed);
     if (!wrong.empty()) return "found: " + subjects_[index].Name() + ": " + OneLine(wrong);
+    if (changed && subjects_[index].Golden() && golden.empty()) golden = subjects_[index].Name();
     if (changed && changed_in.empty()) changed_in = subjects_[index].Name();
   }
+  if (!golden.empty()) return "found: " + golden + ": by its text alone";
   if (!changed_in.empty()) return "survived: other text, same trace, first in " + changed_in;
   return subjects.empty() ? "survived: no program comes there" : "survived: no text is another one";
 }

@@ -144,13 +144,21 @@ void AddGolden(const fs::path& file, const fs::path& scratch, Jobs& jobs) {
     std::istringstream stream(command);
     std::vector<std::string> words;
     for (std::string word; stream >> word;) words.push_back(word);
-    if (words.size() < 2 || (words[0] != "translate" && words[0] != "flatten")) continue;
+    if (words.size() < 2) continue;
     Job job;
     job.name = "golden/" + words[0] + "/" + file.stem().string();
     job.program = folder / words[1];
+    job.golden = true;
     TakeOptions(words, folder, job);
     if (job.config.empty() && fs::exists(folder / "ncport.toml")) job.config = (folder / "ncport.toml").string();
-    if (!job.to.empty() && !job.from.empty() && fs::is_regular_file(job.program)) jobs.write.push_back(job);
+    if (job.from.empty() || !fs::is_regular_file(job.program)) continue;
+    if (words[0] == "translate" || words[0] == "flatten") {
+      if (!job.to.empty()) jobs.write.push_back(job);
+      continue;
+    }
+    const bool ir = words[0] == "dump" && std::ranges::find(words, "ir") != words.end();
+    if (!ir && words[0] != "trace" && words[0] != "check") continue;
+    jobs.said.emplace_back(job, ir ? Shown::kIr : words[0] == "trace" ? Shown::kTrace : Shown::kFindings);
   }
 }
 
@@ -199,7 +207,8 @@ Jobs ListJobs(const fs::path& root, const fs::path& scratch) {
   Jobs jobs;
   AddOwn(root / "tests/faults/programs", jobs);
   AddSamples(root, jobs);
-  for (const char* folder : {"tests/golden/translate", "tests/golden/flatten"}) {
+  for (const char* folder : {"tests/golden/dump", "tests/golden/trace", "tests/golden/check", "tests/golden/translate",
+                             "tests/golden/flatten"}) {
     for (const auto& entry : fs::directory_iterator(root / folder)) {
       if (entry.path().extension() == ".case") AddGolden(entry.path(), scratch, jobs);
     }
@@ -223,6 +232,33 @@ std::string CheckTrace(const Job& job) {
   const ParsedTrace actual = ParseTrace(text), expected = ParseTrace(job.expected);
   if (!actual.error.empty()) return actual.error;
   return CompareVector(actual.trace, expected.trace).value_or("");
+}
+
+std::string Say(const Job& job, Shown shown) {
+  Context context;
+  std::string text;
+  {
+    OutputSink output(text);
+    if (shown == Shown::kTrace) {
+      TraceOptions options;
+      Settle(job, options);
+      static_cast<void>(::ncport::Trace(context, InputsOf(job), options, output));
+    } else if (shown == Shown::kIr) {
+      DumpOptions options;
+      options.from = job.from;
+      static_cast<void>(Dump(context, InputsOf(job), options, output));
+    } else {
+      CheckOptions options;
+      options.from = job.from;
+      options.find = Beside(job.program);
+      static_cast<void>(Check(context, InputsOf(job), options));
+    }
+  }
+  for (const diag::Diagnostic& finding : context.findings.All()) {
+    text += std::string(diag::InfoOf(finding.code).number) + " " + std::to_string(finding.at.line) + ":" +
+            std::to_string(finding.at.begin) + " " + finding.message + " (" + finding.help + ")\n";
+  }
+  return text;
 }
 
 bool Subject::Prepare() {

@@ -26,17 +26,25 @@ struct Job {
   std::string start, call;
   std::string expected;  // text of a trace; read only
   bool alarms = false;   // the expected trace ends in an alarm
+  bool golden = false;   // the golden cases compare what is written word by word
 };
+
+/// What a golden case of reading shows.
+enum class Shown : std::uint8_t { kTrace, kIr, kFindings };
 
 struct Jobs {
   std::vector<Job> read;  // traced, and compared with the expected trace
   std::vector<Job> write;
+  std::vector<std::pair<Job, Shown>> said;  // golden cases of trace, dump and check: all that is said is compared
 };
 /// Vectors, samples, golden cases (unpacked below `scratch`) and the programs of this test.
 Jobs ListJobs(const std::filesystem::path& root, const std::filesystem::path& scratch);
 
 /// Traces a program: empty if it does what is expected, else what is wrong.
 std::string CheckTrace(const Job& job);
+
+/// All that is said of a program: trace, IR or nothing, then the findings.
+std::string Say(const Job& job, Shown shown);
 
 /// A translation, or a flat program, that is read back and compared.
 class Subject {
@@ -48,6 +56,8 @@ class Subject {
   /// `changed`: but the text is another one.
   std::string Judge(bool& changed);
   [[nodiscard]] const std::string& Name() const { return job_.name; }
+  /// A golden case holds the text: another one fails there.
+  [[nodiscard]] bool Golden() const { return job_.golden; }
 
   std::set<std::uint32_t> asked;                          // seams on the way
   std::set<std::pair<const void*, std::uint32_t>> taken;  // rows of tables

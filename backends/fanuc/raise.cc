@@ -30,6 +30,7 @@
 #include "ir/transform/names_to_numbers.h"
 #include "ir/transform/part_ends.h"
 #include "ir/transform/resolve_axes.h"
+#include "ir/transform/resolve_increments.h"
 #include "ir/transform/save_to_restores.h"
 #include "ir/transform/split_at_tool_change.h"
 #include "ir/transform/split_statements.h"
@@ -162,6 +163,13 @@ ir::ExprId BareValue(const Module& module, ir::ExprId id) {
   return id;
 }
 
+/// The letters of increments stand for X, Y, Z, C (Printer::PrintAddress).
+bool HasIncrementLetter(const dialects::Profile& profile, std::uint8_t axis) {
+  constexpr std::uint8_t kC = 5;
+  if (axis > 2 && axis != kC) return false;
+  return (axis == kC ? 3U : axis) < profile.words.incremental_axes.Or("").size();
+}
+
 /// What is left must have a form in the target.
 bool CheckLegal(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   const Module& module = out.module;
@@ -251,7 +259,11 @@ bool CheckLegal(const RaiseInput& input, Translation& out, diag::Sink& sink) {
             refuse(word, named());
             break;
           case WordOp::kAxis:
-            if (word.index >= ir::kLetterAxes) refuse(word, "an axis with a name of its own");
+            if (word.index >= ir::kLetterAxes) {
+              refuse(word, "an axis with a name of its own");
+            } else if (word.mode == ir::ValueMode::kIncremental && !HasIncrementLetter(profile, word.index)) {
+              refuse(word, "an increment of one axis");
+            }
             break;
           case WordOp::kCall:
           case WordOp::kModalCall: {
@@ -356,6 +368,8 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   const ir::ModalState entry = input.config != nullptr ? input.config->entry : ir::ModalState{};
 
   const bool framed = NeedFrame(input, sink);
+  // Another Fanuc control's X100 is 0.1 mm: the value, since here every number gets its point.
+  const bool in_units = ResolveIncrements(module, machine, entry, sink);
   {
     const ir::analysis::FlowGraphs graphs(module);
     const ir::analysis::CallGraph calls(module);
@@ -367,7 +381,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   EndsToReturns(input, module);
   PiToNumber(module);
   if (!ShiftSkipLevels(input, module, sink)) return false;
-  bool ok = RefuseInputs(input, out, sink);
+  bool ok = RefuseInputs(input, out, sink) && in_units;
   ok = RefuseRepeatedCalls(input, module, sink) && ok;
   ok = SaveToRestores(module, machine, entry, sink) && ok;
   for (const ir::ProgramId program : module.programs.Ids()) SplitStatements(module, program);

@@ -170,12 +170,13 @@ void Hunt::Writers(bool quick) {
   std::size_t useless = 0;
   for (const Job& job : jobs_.write) {
     Subject subject(job);
-    if (subject.Prepare()) {
+    const std::string useless_because = subject.Prepare();
+    if (useless_because.empty()) {
       subjects_.push_back(std::move(subject));
     } else {
       ++useless;
       if (job.name.starts_with("programs/")) {
-        results_.push_back({job.name + " to " + job.to, "survived: the program itself does not pass"});
+        results_.push_back({job.name + " to " + job.to, "survived: " + OneLine(useless_because)});
       }
     }
   }

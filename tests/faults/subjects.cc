@@ -261,15 +261,16 @@ std::string Say(const Job& job, Shown shown) {
   return text;
 }
 
-bool Subject::Prepare() {
+std::string Subject::Prepare() {
   context_ = std::make_unique<Context>();
   auto target = dialects::LoadProfile(job_.to, context_->files, context_->findings);
-  if (!target.Ok()) return false;
+  const auto said = [&] { return FirstError(context_->findings); };
+  if (!target.Ok()) return said();
   target_ = *target;
   flat_ = target_.language == dialects::Language::kIso;
   if (!job_.config.empty()) {
     auto config = dialects::LoadConfig(job_.config, context_->files, context_->findings);
-    if (!config.Ok()) return false;
+    if (!config.Ok()) return said();
     all_config_ = *config;
     config_ = all_config_.For(job_.to);
   }
@@ -277,29 +278,30 @@ bool Subject::Prepare() {
   Now().taken.clear();
   RunSettings settings;
   Settle(job_, settings);
-  if (!app::ReadSet(*context_, InputsOf(job_), settings, app::ProfileNeed::kNamed, set_).Ok()) return false;
+  if (!app::ReadSet(*context_, InputsOf(job_), settings, app::ProfileNeed::kNamed, set_).Ok()) return said();
   machine_ = dialects::MachineFor(set_.profile);
   const auto run = app::RunOptionsFor(*context_, set_, settings);
-  if (!run.Ok()) return false;
+  if (!run.Ok()) return said();
   entry_ = run->entry;
   if (flat_) {
     Context context;
     TraceOptions options;
     Settle(job_, options);
     OutputSink output(source_trace_);
-    if (!::ncport::Trace(context, InputsOf(job_), options, output).Ok()) return false;
+    if (!::ncport::Trace(context, InputsOf(job_), options, output).Ok())
+      return "its trace: " + FirstError(context.findings);
   }
   std::vector<backends::OutputFile> files;
   backends::Translation translation;
-  if (!Write(text_, files, translation).empty()) return false;
+  const std::string refused = Write(text_, files, translation);
+  if (!refused.empty()) return refused;
   asked = Now().asked;
   taken = Now().taken;
   compared_ = true;
   const std::string found = Compare(text_, files, translation);
   // Without inputs a branch that no run takes stays open: differences are found all the same.
   compared_ = !found.starts_with("not compared");
-  prepared_ = found.empty() || (!flat_ && !compared_ && found.find("branch") != std::string::npos);
-  return prepared_;
+  return !flat_ && !compared_ && found.find("branch") != std::string::npos ? "" : found;
 }
 
 std::string Subject::Write(std::string& text, std::vector<backends::OutputFile>& files,

@@ -50,8 +50,8 @@ std::string Say(const Job& job, Shown shown);
 class Subject {
  public:
   explicit Subject(Job job) : job_(std::move(job)) {}
-  /// Reads the source, writes the target and compares, without a fault. False: the program is of no use here.
-  bool Prepare();
+  /// Reads the source, writes the target and compares, without a fault. Other than empty: why the program is of no use.
+  std::string Prepare();
   /// Writes the target with the fault that is on, switches it off, reads back and compares. Empty: nothing was found;
   /// `changed`: but the text is another one.
   std::string Judge(bool& changed);
@@ -68,7 +68,7 @@ class Subject {
                       const backends::Translation& translation);
 
   Job job_;
-  bool flat_ = false, prepared_ = false, compared_ = false;
+  bool flat_ = false, compared_ = false;
   std::unique_ptr<Context> context_;
   app::ProgramSet set_;
   ir::Machine machine_;

@@ -101,9 +101,9 @@ TEST_CASE("the words of feed, distance and units by system") {
   CHECK(Text(System::kMazakT, Op::kMotion, ir::Motion::kThread) == "G32");
   CHECK(Codes(System::kMazakT).FindText("G33") != nullptr);
   CHECK(Codes(System::kMill).FindText("G53.5") == nullptr);
-  // The class of an INTEGREX decides what M3 turns: the table must not.
+  // The profile says what M3 turns: the table must not.
   CHECK(Codes(System::kMazakM).FindText("M3") == nullptr);
-  CHECK(Codes(System::kMazakT).FindText("M3") != nullptr);
+  CHECK(Codes(System::kMill).FindText("M3") == nullptr);
   CHECK(TextOf(System::kLatheA, Special::kPreset) == "G50");
   CHECK(TextOf(System::kMazakM, Special::kPreset) == "G92");
   CHECK(TextOf(System::kMazakT, Special::kPolarOn) == "G122");

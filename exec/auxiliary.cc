@@ -82,8 +82,11 @@ void Auxiliary::Act(const ir::Word& word, const Value& value, bool edge_follows)
     case WordOp::kRadiusOffset:
       return Offset(OffsetKind::kRadius, Whole(value));
     case WordOp::kLengthOffset:
-      if (!value.IsVacant()) return Offset(OffsetKind::kLength, Whole(value));
-      if (word.index == 0) Offset(OffsetKind::kNone, 0);  // the word that switches it off
+      if (word.value.Valid()) {
+        if (!value.IsVacant()) Offset(OffsetKind::kLength, Whole(value));
+      } else if (word.index == 0) {
+        Offset(OffsetKind::kNone, 0);  // the word that switches it off
+      }
       return;
     case WordOp::kAux:
     case WordOp::kAuxH: {
@@ -154,10 +157,16 @@ void Auxiliary::Edge(double number) {
   Offset(OffsetKind::kEdge, number);
 }
 
-/// Register 0 is no register: the offset is cancelled.
+void Auxiliary::TakeLengthSign(const ir::Word& word) {
+  constexpr std::uint8_t kMinus = 2;
+  if (!word.value.Valid() && word.index != 0) channel_.length_minus = word.index == kMinus;
+}
+
+/// Register 0 is no register: the offset is cancelled. A radius register of its own says nothing of the length.
 void Auxiliary::Offset(OffsetKind kind, double number) {
   Event& event = emitter_.Begin(EventKind::kOffset);
-  event.offset = number == 0 ? OffsetKind::kNone : kind;
+  event.offset = number == 0 && kind != OffsetKind::kRadius ? OffsetKind::kNone : kind;
+  event.length_minus = event.offset == OffsetKind::kLength && channel_.length_minus;
   event.number = static_cast<std::uint32_t>(number);
   emitter_.Send(event);
 }

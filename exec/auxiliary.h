@@ -19,6 +19,9 @@ class Auxiliary {
   /// Words of spindle, tool, offsets, M and H. `value`: of the word, vacant if it has none. `edge_follows`: the block
   /// also selects an edge.
   void Act(const ir::Word& word, const Value& value, bool edge_follows);
+  /// The word that says whether lengths are added or taken off holds for the register of its block, wherever that
+  /// stands, and for those behind it.
+  void TakeLengthSign(const ir::Word& word);
   /// Message, Print, Alarm, as their words are met.
   void Message(const ir::Word& word, const Value& value);
 

@@ -85,6 +85,7 @@ struct Channel {
   bool tool_known = false;
   double tool_number = 0;
   std::string tool_name;
+  bool length_minus = false;  // the length offset that H selects is taken off
   bool edge_known = false;
   double edge = 0;
 

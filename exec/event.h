@@ -69,6 +69,7 @@ struct Event {
   bool full_circle = false;             // kArc that ends where it starts
   bool added = false;                   // from a block or word that a pass added
   bool tool_waits = false;              // kTool: it only stands ready until a tool change
+  bool length_minus = false;            // kOffset, kLength: it is taken off, not added
   bool tool_change = false;             // kAux: the tool that stands ready comes in
   std::uint8_t spindle = 0;             // below kSpindles; 0 = master
   std::uint8_t transverse_axis = 0xFF;  // that diameter words hold for; 0xFF = none

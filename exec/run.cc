@@ -189,6 +189,7 @@ void Runner::Actions(const ir::Block& block, Phase phase) {
     const WordOp op = session_.module.words[WordId{std::size_t{index}}].op;
     change = change || op == WordOp::kToolChange;
     late_tool = late_tool || (change && op == WordOp::kTool);
+    if (op == WordOp::kLengthOffset) auxiliary_.TakeLengthSign(session_.module.words[WordId{std::size_t{index}}]);
   }
   const auto round_of = [&](WordOp op) {
     if (op == WordOp::kSpeedLimit && phase == Phase::kBefore) return 0;

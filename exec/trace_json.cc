@@ -148,6 +148,7 @@ void Details(Object& object, const Event& event, const ir::Module& module) {
                               : event.offset == OffsetKind::kRadius ? "radius"
                               : event.offset == OffsetKind::kNumber ? "number"
                                                                     : "none");
+      if (event.length_minus) object.Text("sign", "minus");
       return object.Number("number", event.number);
     case EventKind::kComp:
       return object.Text("side", event.comp == ir::CutterComp::kLeft    ? "LEFT"

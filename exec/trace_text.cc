@@ -112,6 +112,7 @@ void Offset(TextBuffer& buffer, const Event& event) {
       break;
   }
   AppendInteger(buffer, event.number);
+  if (event.length_minus) buffer.Append(" MINUS");
 }
 
 void WorkOffset(TextBuffer& buffer, const Event& event) {

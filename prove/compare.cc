@@ -164,7 +164,9 @@ bool Walk::TakeState(const Event& event) {
         state.offset = event.offset == OffsetKind::kNone ? 0 : event.number;
         if (event.offset != OffsetKind::kRadius) state.length = state.offset;
         if (event.offset != OffsetKind::kLength) state.radius = state.offset;
-        return !before.offset_known || before.offset_kind != state.offset_kind || before.offset != state.offset;
+        // Where none was selected, none more changes nothing.
+        if (!before.offset_known) return state.offset_kind != OffsetKind::kNone;
+        return before.offset_kind != state.offset_kind || before.offset != state.offset;
       case EventKind::kWorkOffset:
         state.wcs_known = true;
         state.wcs = event.number;
@@ -240,7 +242,7 @@ const Event* Walk::Next() {
         if (TakeState(event)) return &event;
         continue;
       case EventKind::kPath:
-        if (TakeState(event) && !maps_.path_lost) return &event;
+        TakeState(event);  // compared as state at motions and at the end
         continue;
       case EventKind::kMessage:
       case EventKind::kPrint:
@@ -302,6 +304,7 @@ class Comparer {
   void CompareToolState(const Event& a, const Event& b);
   void CompareCompensation(const Event& a, const Event& b);
   void CompareWorkOffset(const Event& a, const Event& b);
+  void ComparePath(const Event& a, const Event& b);
   bool SkipSplitRapid(const Event& a);
   void NoteLonely(const Event& event, std::uint16_t axes, std::array<std::optional<double>, ir::kMaxAxes>& seen,
                   std::uint16_t& moving);
@@ -509,6 +512,14 @@ void Comparer::CompareWorkOffset(const Event& a, const Event& b) {
     Fail(&a, &b, fmt::format("work offset {} became {}", sa.wcs, sb.wcs));
 }
 
+/// The path mode in force. A source that selects none works with the one that is in force, whichever it is.
+void Comparer::ComparePath(const Event& a, const Event& b) {
+  if (options_.maps.path_lost) return;
+  const ir::PathMode path = source_.Now().path;
+  const ir::PathMode other = path == ir::PathMode::kUnknown ? target_.WithoutAdded().path : target_.Now().path;
+  if (path != other) Fail(&a, &b, "exact stop and path control differ");
+}
+
 void Comparer::CompareEnds(const Event& a, const Event& b) {
   if (a.kind == EventKind::kAlarm) {
     result_.source_alarmed_before_motion = source_.MotionsDone() == 0;
@@ -598,6 +609,7 @@ void Comparer::ComparePair(const Event& a, const Event& b) {
                                               a.kind == EventKind::kRapid)))
         CompareToolState(a, b);
       if (!Failed()) CompareWorkOffset(a, b);
+      if (!Failed()) ComparePath(a, b);
       if (!Failed() && a.kind == EventKind::kRapid && source_.SpindlesNow() != target_.SpindlesNow())
         ++result_.spindle_moved_across_rapid;
       source_.MotionDone(a);
@@ -615,9 +627,6 @@ void Comparer::ComparePair(const Event& a, const Event& b) {
       break;
     case EventKind::kComp:
       if (a.comp != b.comp) Fail(&a, &b, "cutter compensation differs");
-      break;
-    case EventKind::kPath:
-      if (a.path != b.path) Fail(&a, &b, "exact stop and path control differ");
       break;
     case EventKind::kAux: {
       const auto pair = std::find_if(options_.maps.aux.begin(), options_.maps.aux.end(),
@@ -639,6 +648,7 @@ void Comparer::ComparePair(const Event& a, const Event& b) {
     case EventKind::kEnd:
       CompareSpindles(a, b, source_.SpindlesWithoutAdded(), target_.SpindlesWithoutAdded());
       if (!Failed()) CompareWorkOffset(a, b);
+      if (!Failed()) ComparePath(a, b);
       break;
     default:
       break;

@@ -292,6 +292,10 @@ void FlatWriter::MillOffset(const exec::Event& event) {
     case exec::OffsetKind::kEdge:
       return EdgeOffset(event.number);
     case exec::OffsetKind::kLength:
+      if (event.length_minus) {
+        Refuse(diag::Code::kNotExpressible, "a length offset that counts downward");
+        return;
+      }
       return WriteWords(fmt::format("G43 H{}", event.number));
     case exec::OffsetKind::kNone:
       radius_register_.reset();

@@ -45,6 +45,9 @@ template <class Kind>
 constexpr Row Move(const Texts& text, Op op, Kind kind, std::string_view rule = "fanuc-8.1") {
   return {text, op, static_cast<std::uint8_t>(kind), kNone, Phase::kMotion, {0, 0, 0}, rule};
 }
+constexpr Row Length(const Texts& text, std::uint8_t index) {
+  return {text, Op::kLengthOffset, index, kNone, Phase::kBefore, {8, 8, 8}, "fanuc-8.1"};
+}
 constexpr Row Offset(std::string_view text, std::uint32_t number) {
   return {Everywhere(text), Op::kWorkOffset, 0, number, Phase::kSetting, {14, 14, 12}, "fanuc-8.4"};
 }
@@ -82,9 +85,9 @@ constexpr Row kRows[] = {
     Modal(Everywhere("G42"), Op::kCutterComp, ir::CutterComp::kRight, {7, 7, 7}),
 
     // The H word of the block is the number; G49 needs none. Index: 0 off, 1 plus, 2 minus.
-    Modal(Texts{"G43", "", "", "", "", "G43"}, Op::kLengthOffset, 1, {8, 8, 8}),
-    Modal(Texts{"G44", "", "", "", "", "G44"}, Op::kLengthOffset, 2, {8, 8, 8}),
-    Modal(Texts{"G49", "", "", "", "", "G49"}, Op::kLengthOffset, 0, {8, 8, 8}),
+    Length(Texts{"G43", "", "", "", "", "G43"}, 1),
+    Length(Texts{"G44", "", "", "", "", "G44"}, 2),
+    Length(Texts{"G49", "", "", "", "", "G49"}, 0),
 
     Modal(Texts{"G98", "", "G98", "G98", "", "G98"}, Op::kReturnLevel, ir::ReturnLevel::kInitial, {10, 11, 10}),
     Modal(Texts{"G99", "", "G99", "G99", "", "G99"}, Op::kReturnLevel, ir::ReturnLevel::kRPlane, {10, 11, 10}),

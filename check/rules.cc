@@ -13,8 +13,11 @@ void CheckPrograms(const Subject& subject, diag::Sink& sink) {
     CheckProgramEnd(subject, program, sink);
     CheckArcs(subject, program, sink);
     CheckArcWords(subject, program, sink);
+    CheckLoopCounters(subject, program, sink);
+    CheckExactComparisons(subject, program, sink);
   }
   CheckUnusedNames(subject, sink);
+  CheckSharedNames(subject, sink);
   CheckExterns(subject, sink);
   CheckRecursion(subject, sink);
   CheckFeed(subject, sink);

@@ -31,12 +31,19 @@ void CheckArcs(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
 /// NC5005, NC1002, NC1013: arcs that nothing describes, centres outside of the plane, a radius on a straight line,
 /// polar words beside an axis of the plane.
 void CheckArcWords(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
+/// NC3011, NC4011: FOR whose end changes in its body, or whose counter is read behind it.
+void CheckLoopCounters(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
+/// NC3010: EQ or NE with a fraction that binary numbers do not hold, where the control compares exactly.
+void CheckExactComparisons(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
 
 // Of the whole set.
 
 /// NC2007: variables and parameters that no block uses.
 void CheckUnusedNames(const Subject& subject, diag::Sink& sink);
-/// NC2004, NC2011: declarations of called programs that do not fit them.
+/// NC2014: a variable and a label or program of one name.
+void CheckSharedNames(const Subject& subject, diag::Sink& sink);
+/// NC2004, NC2011: declarations of called programs that do not fit them. NC4012: calls with arguments of a program that
+/// lies in a folder whose programs the control knows only by EXTERN.
 void CheckExterns(const Subject& subject, diag::Sink& sink);
 /// NC4006: every way through a program calls it again.
 void CheckRecursion(const Subject& subject, diag::Sink& sink);

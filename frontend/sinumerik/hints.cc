@@ -90,7 +90,8 @@ class Hints {
 
   // `G[8]=2`: the word of a group by its index.
   bool GroupIndex() {
-    if (Before() != K::kComputedG || Kind() != K::kLeftBracket) return false;
+    // `X[1]=5`: the axis by its number.
+    if ((Before() != K::kComputedG && Before() != K::kAxis) || Kind() != K::kLeftBracket) return false;
     return Put(Code::kNotSupported, at_ - 1);
   }
 

@@ -253,6 +253,7 @@ void Resolver::Program(ir::ProgramId program) {
   CollectLabels(program);
   CollectRefusedNames(program);
   missing_names_.clear();
+  externs_.clear();
   for (const ir::BlockId id : module_.programs[program].blocks) {
     if (!module_.blocks[id].words.Empty()) Block(id);
   }
@@ -322,6 +323,9 @@ bool Resolver::Word(ir::Word& word) {
     }
     case WordOp::kAssignList:
       return List(word.Extra<ir::AssignListId>(), module_.assign_lists[word.Extra<ir::AssignListId>()].place, {});
+    case WordOp::kExtern:
+      externs_.insert(UpperOf(module_.View(module_.externs[word.Extra<ir::ExternId>()].name)));
+      return true;
     case WordOp::kDefine:
       return Define(word.Extra<ir::VariableId>());
     case WordOp::kHeader:

@@ -138,7 +138,35 @@ bool Resolver::Arguments(const ir::Call& call, const ir::Word& word) {
       return false;
     }
   }
+  if (!program.library) WantExtern(call, word);
   return !program.library || CycleLimits(call);
+}
+
+bool Resolver::InPlainFolder(ir::ProgramId program) const {
+  constexpr std::string_view kPath = "$PATH=/_N_";
+  constexpr std::uint32_t kHeadBlocks = 3;  // the path stands directly below the header (card 1.1)
+  std::uint32_t looked = 0;
+  for (const ir::BlockId id : module_.programs[program].blocks) {
+    if (++looked > kHeadBlocks) break;
+    for (const ir::CommentId comment : module_.blocks[id].comments) {
+      const std::string text = UpperOf(module_.View(module_.comments[comment].text));
+      if (!text.starts_with(kPath)) continue;
+      const std::string_view folder = std::string_view(text).substr(kPath.size(), 3);
+      return folder == "SPF" || folder == "MPF" || folder == "WKS";
+    }
+  }
+  return false;
+}
+
+void Resolver::WantExtern(const ir::Call& call, const ir::Word& word) {
+  if (call.args.Empty() || call.program == program_ || !call.name.Valid() || !InPlainFolder(call.program)) return;
+  if (!externs_.insert(UpperOf(module_.View(call.name))).second) return;
+  const ir::Program& program = module_.programs[call.program];
+  diag::Diagnostic& finding =
+      sink_.Report(Code::kMissingExtern, module_.RangeOf(module_.blocks[block_], word), module_.View(call.name));
+  if (program.header_line != 0)
+    finding.notes.push_back({{program.file, program.header_line, 0, 0}, "the program begins here"});
+  finding.help = "programs of this folder are known to the control by EXTERN only";
 }
 
 void Resolver::UnknownProgram(std::string_view name, const SourceRange& at) {

@@ -62,6 +62,10 @@ class Resolver {
   void UnknownProgram(std::string_view name, const SourceRange& at);
   bool DeclaredArguments(const ir::Call& call, const ir::Word& word);
   bool Argument(ir::Arg& arg, ir::VariableId parameter);
+  /// Card 7.2: Code::kMissingExtern, once for each program that is called.
+  void WantExtern(const ir::Call& call, const ir::Word& word);
+  /// True if the folder that stands in front of the program (`;$PATH=`) is one of part programs or subprograms.
+  [[nodiscard]] bool InPlainFolder(ir::ProgramId program) const;
   /// True if the PROC of a program was not understood, so that what it takes is not known.
   [[nodiscard]] bool HeaderRefused(ir::ProgramId program) const;
   /// Says for which parameter the value is, where there is one.
@@ -113,6 +117,7 @@ class Resolver {
   };
   std::unordered_map<std::string, Missing> missing_names_;  // of program_, upper case
   std::unordered_set<std::string> missing_programs_;
+  std::unordered_set<std::string> externs_;          // of program_, upper case; also those that had a finding
   bool text_likely_ = false;                         // a text may stand where names are looked up
   std::unordered_set<std::string> doubted_systems_;  // system variables that had a finding
   ir::VariableId parameter_;                         // whose argument is resolved

@@ -189,4 +189,56 @@ TEST_CASE("words that do not describe an arc") {
   CHECK(Sub("PROC SUB1\nG2 X20 Z-20 K10 F100\nM17\n").empty());
 }
 
+TEST_CASE("loops whose end changes inside") {
+  CHECK(Mill("FOR R1=1 TO R2\nR2=R2-1\nENDFOR\nM30\n") == "NC4011 1");
+  CHECK(Mill("DEF INT AB, CD=5\nFOR AB=1 TO CD*2\nIF AB>2\nCD=3\nENDIF\nENDFOR\nM30\n") == "NC4011 2");
+  CHECK(Mill("FOR R1=1 TO R2\nFOR R2=1 TO 3\nG0 X=R2\nENDFOR\nENDFOR\nM30\n") == "NC4011 1, NC3011 1");
+  CHECK(Mill("FOR R1=1 TO R2\nR3=R2\nENDFOR\nR2=1\nM30\n").empty());
+  CHECK(Mill("FOR R1=1 TO 5\nR1=R1+1\nENDFOR\nM30\n").empty());
+  CHECK(Mill("FOR R1=1 TO R2\nR[R1]=3\nENDFOR\nM30\n").empty());
+}
+
+TEST_CASE("counters that are read behind their loop") {
+  CHECK(Mill("FOR R1=1 TO 5\nG0 X=R1\nENDFOR\nG0 Y=R1\nM30\n") == "NC3011 4");
+  CHECK(Mill("DEF INT AB\nFOR AB=1 TO 5\nENDFOR\nIF AB>5\nG0 X1\nENDIF\nM30\n") == "NC3011 4");
+  CHECK(Mill("FOR R1=1 TO 5\nENDFOR\nR2=R1 R1=0\nM30\n") == "NC3011 3");
+  CHECK(Mill("FOR R1=1 TO 5\nENDFOR\nR1=0\nG0 X=R1\nM30\n").empty());
+  // Left by a jump, the counter is what it was.
+  CHECK(Mill("FOR R1=1 TO 5\nIF R[R1]>3 GOTOF AB\nENDFOR\nM30\nAB: G0 X=R1\nM30\n").empty());
+  CHECK(Mill("LOOP\nFOR R1=1 TO 5\nG0 X=R1\nENDFOR\nENDLOOP\n").empty());
+  CHECK(Mill("FOR R1=1 TO 5\nENDFOR\nSUB1\nG0 X=R1\nM30\n%_N_SUB1_SPF\nR1=0\nM17\n").empty());
+}
+
+TEST_CASE("comparisons with a fraction where the control compares exactly") {
+  CHECK(Macro("O1\nIF[#1EQ0.1]GOTO10\nN10 M30\n") == "NC3010 2");
+  CHECK(Macro("O1\nWHILE[#1NE-0.3]DO1\n#1=#1-0.1\nEND1\nM30\n") == "NC3010 2");
+  CHECK(Macro("O1\nIF[[#1+#2]EQ0.7]THEN #3=1\nM30\n") == "NC3010 2");
+  CHECK(Macro("O1\nIF[#1EQ0.5]GOTO10\nN10 M30\n").empty());
+  CHECK(Macro("O1\nIF[#1GE0.1]GOTO10\nN10 M30\n").empty());
+  CHECK(Macro("O1\nIF[#1EQ3]GOTO10\nN10 M30\n").empty());
+  // Here equality has a tolerance.
+  CHECK(Mill("IF R1==0.1 GOTOF AB\nAB: M30\n").empty());
+}
+
+TEST_CASE("one name for a variable and something else") {
+  CHECK(Mill("DEF REAL AB\nAB: G0 X=AB\nIF R1>1 GOTOB AB\nM30\n") == "NC2014 1");
+  CHECK(Mill("DEF REAL SUB1\nG0 X=SUB1\nM30\n%_N_SUB1_SPF\nG0 X1\nM17\n") == "NC2014 1");
+  CHECK(Sub("PROC SUB1(REAL ab)\nAB: G0 X=ab\nIF R1>1 GOTOB AB\nM17\n") == "NC2014 1");
+  CHECK(Mill("DEF REAL AB\nCD: G0 X=AB\nIF R1>1 GOTOB CD\nM30\n").empty());
+  // The label of another program.
+  CHECK(Mill("DEF REAL AB\nG0 X=AB\nSUB1\nM30\n%_N_SUB1_SPF\nAB: G0 X1\nIF R1>1 GOTOB AB\nM17\n").empty());
+}
+
+TEST_CASE("calls with arguments of programs that only EXTERN makes known") {
+  const std::string plain = "M30\n%_N_SUB1_SPF\n;$PATH=/_N_SPF_DIR\nPROC SUB1(REAL AB)\nG0 X=AB\nM17\n";
+  const std::string work = "M30\n%_N_SUB1_SPF\n;$PATH=/_N_WKS_DIR/_N_AB_WPD\nPROC SUB1(REAL AB)\nG0 X=AB\nM17\n";
+  const std::string cycle = "M30\n%_N_SUB1_SPF\n;$PATH=/_N_CUS_DIR\nPROC SUB1(REAL AB)\nG0 X=AB\nM17\n";
+  CHECK(Mill("SUB1(1)\nSUB1(2)\n" + plain) == "NC4012 1");
+  CHECK(Mill("SUB1(1)\n" + work) == "NC4012 1");
+  CHECK(Mill("MCALL SUB1(1)\nG0 X1\nMCALL\n" + plain) == "NC4012 1");
+  CHECK(Mill("EXTERN SUB1(REAL)\nSUB1(1)\n" + plain).empty());
+  CHECK(Mill("SUB1\n" + plain).empty());
+  CHECK(Mill("SUB1(1)\n" + cycle).empty());
+}
+
 }  // namespace ncport::check

@@ -76,10 +76,8 @@ void Binder::ApplyRange(prove::Input& input) const {
 
 std::vector<backends::ProgramName> Binder::PartsOf(ir::ProgramId program) const {
   std::vector<backends::ProgramName> parts;
-  const std::string_view whole = source_.View(source_.programs[program].name);
   for (const backends::ProgramName& name : translation_.programs) {
-    const bool part = name.source.starts_with(whole) && name.source.substr(whole.size()).starts_with('_');
-    if (part || SameName(name.source, whole)) parts.push_back(name);
+    if (name.whole == program) parts.push_back(name);
   }
   return parts;
 }

@@ -17,6 +17,14 @@ std::string FileNameOf(std::string_view path) {
   return std::string(slash == std::string_view::npos ? path : path.substr(slash + 1));
 }
 
+/// Name of the source program that a program is, or a part of.
+std::string_view WholeOf(const backends::Translation& translation, const backends::ProgramName& part) {
+  for (const backends::ProgramName& name : translation.programs) {
+    if (name.program == part.whole) return name.source;
+  }
+  return part.source;
+}
+
 std::string RangeOfInput(const std::vector<prove::Input>& inputs, std::string_view program,
                          std::string_view parameter) {
   const std::string name = fmt::format("{}.{}", program, parameter);
@@ -104,7 +112,7 @@ std::vector<backends::ProgramHeader> HeadersOf(const Context& context, const Pro
       if (cell.program != name.program || cell.common) continue;
       if (cell.letter != 0) {
         lines.push_back(fmt::format("{} = {} = {}{}", cell.letter, cell.target, cell.source,
-                                    RangeOfInput(inputs, name.source, cell.source)));
+                                    RangeOfInput(inputs, WholeOf(translation, name), cell.source)));
       } else {
         lines.push_back(fmt::format("{} = {}", cell.target, cell.source));
       }

@@ -41,6 +41,7 @@ struct ProgramName {
   std::string source;     // "TURNING_CYCLE"
   std::string target;     // "4001"
   bool main = false;
+  ir::ProgramId whole{};  // program of the source that it is, or a part of; invalid: none
 };
 /// A block of the source by its place.
 struct BlockPlace {

@@ -12,7 +12,9 @@
 #include "ir/analysis/cfg.h"
 #include "ir/analysis/modal_state.h"
 #include "ir/builder.h"
+#include "ir/transform/linear_form.h"
 #include "ir/transform/program_editor.h"
+#include "ir/transform/word_exprs.h"
 
 namespace ncport::backends::fanuc {
 
@@ -283,6 +285,19 @@ void GuardMacros(const RaiseInput& input, Translation& out) {
       if (module.View(module.spaces[ir::SpaceId{i}].name) == "#") space = ir::SpaceId{i};
     }
     const IdRange<BlockId> blocks = module.programs[program].blocks;
+    // A letter that no block reads may be missing.
+    std::set<std::uint32_t> read;
+    for (const BlockId id : blocks) {
+      for (const ir::WordId word : module.blocks[id].words) {
+        ir::transform::VisitWordExprs(module, module.words[word], [&](ir::ExprId root, bool place) {
+          ir::transform::VisitReads(module, root, [&](ir::ExprId node) {
+            const ir::Expr& expr = module.exprs[node];
+            if (expr.op == ir::ExprOp::kCell && expr.a == space.value && !(place && node == root)) read.insert(expr.b);
+          });
+        });
+      }
+    }
+    std::erase_if(cells, [&](std::uint32_t cell) { return !read.contains(cell); });
     if (cells.empty() || blocks.Empty()) continue;
     std::set<std::uint32_t> numbers;
     for (const BlockId id : blocks) numbers.insert(module.blocks[id].number);

@@ -45,8 +45,9 @@ using ir::Word;
 using ir::WordOp;
 using namespace ir::transform;
 
-NamesToNumbersConfig CellConfig(const RaiseInput& input) {
+NamesToNumbersConfig CellConfig(const RaiseInput& input, const SplitResult& split) {
   NamesToNumbersConfig config;
+  for (const SplitProgram& whole : split.programs) config.parts.push_back(whole.parts);
   // Letters that travel plainly on all controls of the family: no I J K (list II), no G L N O P, no M S T
   // (mazak-lathe-10.1).
   for (const char letter : std::string_view("ABCDEHQRUVWXYZ"))
@@ -126,7 +127,11 @@ bool NamePrograms(const RaiseInput& input, const SplitResult& split, Translation
   for (const bool main : {true, false}) {
     for (const ir::ProgramId program : module.programs.Ids()) {
       if ((module.programs[program].kind == ir::ProgramKind::kMain) != main) continue;
-      out.programs.push_back({program, source_name(program), names[program.value], main});
+      ir::ProgramId whole = program;
+      for (const SplitProgram& cut : split.programs) {
+        if (std::find(cut.parts.begin(), cut.parts.end(), program) != cut.parts.end()) whole = cut.whole;
+      }
+      out.programs.push_back({program, source_name(program), names[program.value], main, whole});
     }
   }
   for (const ProgramName& name : out.programs) module.programs[name.program].name = module.strings.Intern(name.target);
@@ -437,7 +442,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
     LimitNesting(module, program, static_cast<int>(profile.nesting.brackets.Or(5)));
   }
   if (!ok) return false;
-  NamesToNumbersResult names = NamesToNumbers(module, CellConfig(input), sink);
+  NamesToNumbersResult names = NamesToNumbers(module, CellConfig(input, split), sink);
   out.cells = std::move(names.map);
   if (!names.ok) return false;
   ok = NamePrograms(input, split, out, sink);

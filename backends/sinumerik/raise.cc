@@ -94,7 +94,7 @@ bool NamePrograms(const RaiseInput& input, Translation& out, diag::Sink& sink) {
     for (const ir::ProgramId program : module.programs.Ids()) {
       if ((module.programs[program].kind == ir::ProgramKind::kMain) != main) continue;
       out.programs.push_back(
-          {program, std::string(module.View(module.programs[program].name)), names[program.value], main});
+          {program, std::string(module.View(module.programs[program].name)), names[program.value], main, program});
     }
   }
   for (const ProgramName& name : out.programs) module.programs[name.program].name = module.strings.Intern(name.target);
@@ -255,7 +255,7 @@ bool Copy(Translation& out) {
       const ir::Program& record = module.programs[program];
       if (record.library || (record.kind == ir::ProgramKind::kMain) != main) continue;
       const std::string name(module.View(record.name));
-      out.programs.push_back({program, name, name, main});
+      out.programs.push_back({program, name, name, main, program});
       for (const ir::BlockId block : record.blocks)
         ok = ok && (module.blocks[block].flags & ir::Block::kRefused) == 0;  // those have their findings
     }

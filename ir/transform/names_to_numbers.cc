@@ -8,10 +8,12 @@
 #include <set>
 #include <utility>
 
+#include "ir/analysis/cfg.h"
 #include "ir/builder.h"
 #include "ir/transform/linear_form.h"
 #include "ir/transform/program_editor.h"
 #include "ir/transform/rewrite_exprs.h"
+#include "ir/transform/word_exprs.h"
 
 namespace ncport::ir::transform {
 
@@ -49,16 +51,18 @@ class Allocation {
   // Where it goes.
   void KeepLocals();
   void PlaceSpaces();
+  void ChooseLetters(const std::vector<ProgramId>& parts);
+  [[nodiscard]] bool ArgumentsAreHarmless(ProgramId program, std::uint32_t position) const;
   void PlaceProgram(ProgramId program);
   void Map(CellMapping mapping);
-  bool PlaceParameter(ProgramId program, VariableId id, std::size_t& next_letter, bool& feed_taken);
+  bool PlaceParameter(ProgramId program, VariableId id);
   void PlaceLocal(ProgramId program, VariableId id);
   bool TakeLocal(ProgramId program, std::uint32_t count, std::uint32_t& cell);
   bool TakeCommon(std::uint32_t count, std::uint32_t& cell);
   const NamesToNumbersConfig::Pin* PinOf(ProgramId program, std::string_view name) const;
   // The program text.
-  void LowerDefinitions(ProgramId program);
-  bool WrittenBeforeRead(ProgramId program, BlockId definition, VariableId variable) const;
+  void LowerDefinitions(ProgramId program, const analysis::Cfg& cfg);
+  bool WrittenBeforeRead(const analysis::Cfg& cfg, BlockId definition, VariableId variable);
   void LowerCalls(ProgramId program);
   void ReplaceNames(ProgramId program);
   ExprId CellOf(ExprId id);
@@ -87,7 +91,10 @@ class Allocation {
   std::map<std::uint32_t, std::set<std::uint32_t>> used_cells_;  // SpaceId -> cells of the source
   std::set<std::uint32_t> indexed_spaces_;
   std::set<std::uint32_t> read_variables_;
-  std::set<std::uint32_t> feeds_;  // parameters that stand alone as a feed
+  std::set<std::uint32_t> feeds_;                    // parameters that stand alone as a feed
+  std::map<std::uint32_t, ArgumentLetter> letters_;  // VariableId of a parameter
+  std::size_t steps_left_ = 1'000'000;               // of WrittenBeforeRead
+  std::set<std::uint32_t> unread_parts_;             // parameters that a part of a cut program gets on no way
   NamesToNumbersResult result_;
 };
 
@@ -253,7 +260,67 @@ void Allocation::Map(CellMapping mapping) {
   result_.map.push_back(std::move(mapping));
 }
 
-bool Allocation::PlaceParameter(ProgramId program, VariableId id, std::size_t& next_letter, bool& feed_taken) {
+/// Evaluating the argument again or not at all makes no difference: no call can end in an alarm there.
+bool Allocation::ArgumentsAreHarmless(ProgramId program, std::uint32_t position) const {
+  for (const ProgramId caller : module_.programs.Ids()) {
+    for (const BlockId block : module_.programs[caller].blocks) {
+      for (const WordId id : module_.blocks[block].words) {
+        const Word& word = module_.words[id];
+        if ((word.op != WordOp::kCall && word.op != WordOp::kModalCall) || !word.Extra<CallId>().Valid()) continue;
+        const Call& call = module_.calls[word.Extra<CallId>()];
+        if (call.program != program) continue;
+        for (const ArgId arg : call.args) {
+          ExprId value = module_.args[arg].value;
+          if (module_.args[arg].letter != 0 || module_.args[arg].position != position || !value.Valid()) continue;
+          while (module_.exprs[value].op == ExprOp::kGroup || module_.exprs[value].op == ExprOp::kNegate ||
+                 module_.exprs[value].op == ExprOp::kConvert)
+            value = ExprId{module_.exprs[value].a};
+          const ExprOp op = module_.exprs[value].op;
+          if (op != ExprOp::kLiteral && op != ExprOp::kVariable && op != ExprOp::kCell) return false;
+        }
+      }
+    }
+  }
+  return true;
+}
+
+/// One letter for each parameter, the same in all parts of a cut program; the feed has its own.
+void Allocation::ChooseLetters(const std::vector<ProgramId>& parts) {
+  const std::uint32_t count = module_.programs[parts.front()].parameters.count;
+  const auto variable = [&](ProgramId part, std::uint32_t position) {
+    return VariableId{module_.programs[part].parameters[position]};
+  };
+  const auto any = [&](const auto& holds) { return std::any_of(parts.begin(), parts.end(), holds); };
+  std::size_t next_letter = 0;
+  bool feed_taken = false;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Variable& first = module_.variables[variable(parts.front(), i)];
+    if (first.by_reference || first.dimension_count > 0) continue;
+    if (parts.size() > 1) {
+      const bool read = any([&](ProgramId part) { return read_variables_.contains(variable(part, i).value); });
+      const bool harmless = ArgumentsAreHarmless(parts.front(), i);
+      for (std::size_t part = 0; part < parts.size(); ++part) {
+        if (read_variables_.contains(variable(parts[part], i).value)) continue;
+        if (part == 0 ? read && harmless : true) unread_parts_.insert(variable(parts[part], i).value);
+      }
+    }
+    ArgumentLetter letter;
+    const bool feed = any([&](ProgramId part) { return feeds_.contains(variable(part, i).value); });
+    if (feed && !feed_taken && config_.feed_letter.letter != 0) {
+      letter = config_.feed_letter;
+      feed_taken = true;
+    } else {
+      while (next_letter < config_.letters.size() &&
+             any([&](ProgramId part) { return used_locals_[part.value].contains(config_.letters[next_letter].cell); }))
+        ++next_letter;
+      if (next_letter < config_.letters.size()) letter = config_.letters[next_letter++];
+    }
+    for (const ProgramId part : parts) letters_[variable(part, i).value] = letter;
+  }
+}
+
+bool Allocation::PlaceParameter(ProgramId program, VariableId id) {
+  if (unread_parts_.contains(id.value)) return true;
   const Variable variable = module_.variables[id];
   CellMapping mapping;
   mapping.program = program;
@@ -275,16 +342,7 @@ bool Allocation::PlaceParameter(ProgramId program, VariableId id, std::size_t& n
     mapping.common = true;
     homes_[id.value] = {cell, true};
   } else {
-    ArgumentLetter letter;
-    if (feeds_.contains(id.value) && !feed_taken && config_.feed_letter.letter != 0) {
-      letter = config_.feed_letter;
-      feed_taken = true;
-    } else {
-      while (next_letter < config_.letters.size() &&
-             used_locals_[program.value].contains(config_.letters[next_letter].cell))
-        ++next_letter;
-      if (next_letter < config_.letters.size()) letter = config_.letters[next_letter++];
-    }
+    const ArgumentLetter letter = letters_[id.value];
     if (letter.letter == 0) {
       Refuse(PlaceOf(variable), fmt::format("parameter {}: more parameters than argument letters", mapping.source));
       return false;
@@ -330,16 +388,8 @@ void Allocation::PlaceLocal(ProgramId program, VariableId id) {
 }
 
 void Allocation::PlaceProgram(ProgramId program) {
-  std::size_t next_letter = 0;
-  bool feed_taken = false;
-  if (config_.feed_letter.letter != 0) {
-    const IdRange<VariableId> parameters = module_.programs[program].parameters;
-    bool has_feed = false;
-    for (const VariableId id : parameters) has_feed = has_feed || feeds_.contains(id.value);
-    if (has_feed) used_locals_[program.value].insert(config_.feed_letter.cell);
-  }
   for (const VariableId id : module_.programs[program].parameters) {
-    if (!PlaceParameter(program, id, next_letter, feed_taken)) return;
+    if (!PlaceParameter(program, id)) return;
   }
   for (std::uint32_t i = 0; i < module_.variables.Size(); ++i) {
     const Variable& variable = module_.variables[VariableId{i}];
@@ -347,45 +397,50 @@ void Allocation::PlaceProgram(ProgramId program) {
   }
 }
 
-/// From the definition on, straight down: is the variable assigned before anything reads it or control may leave?
-bool Allocation::WrittenBeforeRead(ProgramId program, BlockId definition, VariableId variable) const {
-  const IdRange<BlockId> blocks = module_.programs[program].blocks;
-  const auto reads = [&](ExprId value) {
-    bool found = false;
-    VisitReads(module_, value, [&](ExprId id) {
-      const Expr& expr = module_.exprs[id];
-      found = found || ((expr.op == ExprOp::kVariable || expr.op == ExprOp::kElement) && expr.a == variable.value);
-    });
-    return found;
+/// From the definition on, on every way: is the variable assigned before anything reads it?
+bool Allocation::WrittenBeforeRead(const analysis::Cfg& cfg, BlockId definition, VariableId variable) {
+  // Subprograms may read what belongs to the whole program.
+  if (module_.variables[variable].scope != Scope::kLocal || cfg.Opaque()) return false;
+  const IdRange<BlockId> blocks = cfg.Blocks();
+  enum class Use : std::uint8_t { kNone, kReads, kWrites };
+  const auto use_of = [&](BlockId id, bool behind_definition) {
+    const Block& block = module_.blocks[id];
+    bool sure = block.skip_level == Block::kNoSkip, active = !behind_definition;
+    for (const WordId word_id : block.words) {
+      const Word& word = module_.words[word_id];
+      if (!active) {
+        active = word.op == WordOp::kDefine && word.Extra<VariableId>() == variable;
+        continue;
+      }
+      if (ReadsVariable(module_, word, variable)) return Use::kReads;
+      sure = sure && word.op != WordOp::kWhen && word.op != WordOp::kSkipRest;
+      if (word.op != WordOp::kAssign || !sure) continue;
+      const Expr& place = module_.exprs[word.Extra<ExprId>()];
+      if (place.op == ExprOp::kVariable && place.a == variable.value) return Use::kWrites;
+    }
+    return Use::kNone;
   };
-  for (std::uint32_t i = definition.value - blocks.begin + 1; i < blocks.count; ++i) {
-    const Block& block = module_.blocks[blocks[i]];
-    if (block.label.Valid() || block.number != Block::kNoNumber || block.skip_level != Block::kNoSkip) return false;
-    for (const WordId id : block.words) {
-      const Word& word = module_.words[id];
-      if (word.op == WordOp::kDefine || word.op == WordOp::kMessage) {
-        const bool used =
-            word.op == WordOp::kDefine ? reads(module_.variables[word.Extra<VariableId>()].initial) : reads(word.value);
-        if (used) return false;
-        continue;
-      }
-      if (reads(word.value)) return false;
-      if (word.op == WordOp::kAssign) {
-        const Expr& place = module_.exprs[word.Extra<ExprId>()];
-        if (place.op == ExprOp::kVariable && place.a == variable.value) return true;
-        if (reads(word.Extra<ExprId>())) return false;
-        continue;
-      }
-      if (DefaultPhaseOf(word.op) == Phase::kFlow || DefaultPhaseOf(word.op) == Phase::kLast ||
-          word.op == WordOp::kWhen)
-        return false;
+  std::vector<std::uint8_t> seen(blocks.count, 0);
+  std::vector<BlockId> work{definition};
+  for (bool first = true; !work.empty(); first = false) {
+    // Long programs with many variables: a start value too much does no harm.
+    if (steps_left_ == 0) return false;
+    --steps_left_;
+    const BlockId block = work.back();
+    work.pop_back();
+    const Use use = use_of(block, first);
+    if (use == Use::kReads) return false;
+    if (use == Use::kWrites) continue;
+    for (const analysis::Edge& edge : cfg.Successors(block)) {
+      if (edge.kind == analysis::EdgeKind::kComputed || edge.kind == analysis::EdgeKind::kRestart) return false;
+      if (edge.to.Valid() && std::exchange(seen[edge.to.value - blocks.begin], 1) == 0) work.push_back(edge.to);
     }
   }
-  return false;
+  return true;
 }
 
 /// A definition sets its variable at each call: that becomes an assignment, unless the next lines set it anyway.
-void Allocation::LowerDefinitions(ProgramId program) {
+void Allocation::LowerDefinitions(ProgramId program, const analysis::Cfg& cfg) {
   ProgramEditor editor(module_, program, "names_to_numbers");
   for (const BlockId id : module_.programs[program].blocks) {
     const Block block = module_.blocks[id];
@@ -400,7 +455,7 @@ void Allocation::LowerDefinitions(ProgramId program) {
       const Variable variable = module_.variables[variable_id];
       if (!homes_.contains(variable_id.value)) continue;
       const bool idle =
-          !variable.initial.Valid() && !variable.initial_list.Valid() && WrittenBeforeRead(program, id, variable_id);
+          !variable.initial.Valid() && !variable.initial_list.Valid() && WrittenBeforeRead(cfg, id, variable_id);
       if (idle) continue;
       const auto assign = [&](ExprId place, ExprId value) {
         Word made;
@@ -589,13 +644,21 @@ NamesToNumbersResult Allocation::Run() {
   FindUses();
   KeepLocals();
   PlaceSpaces();
+  for (const ProgramId program : module_.programs.Ids()) {
+    const auto group = std::find_if(config_.parts.begin(), config_.parts.end(), [&](const auto& parts) {
+      return std::find(parts.begin(), parts.end(), program) != parts.end();
+    });
+    if (group == config_.parts.end()) ChooseLetters({program});
+    if (group != config_.parts.end() && group->front() == program) ChooseLetters(*group);
+  }
   for (const ProgramId program : module_.programs.Ids()) PlaceProgram(program);
   for (std::uint32_t i = 0; i < module_.variables.Size(); ++i) {
     if (!module_.variables[VariableId{i}].owner.Valid()) PlaceLocal({}, VariableId{i});
   }
   if (!result_.ok) return std::move(result_);
+  const analysis::FlowGraphs graphs(module_);
   for (const ProgramId program : module_.programs.Ids()) {
-    LowerDefinitions(program);
+    LowerDefinitions(program, graphs.Of(program));
     LowerCalls(program);
   }
   for (const ProgramId program : module_.programs.Ids()) ReplaceNames(program);

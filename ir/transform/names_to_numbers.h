@@ -53,6 +53,9 @@ struct NamesToNumbersConfig {
     std::uint32_t cell = 0;
   };
   std::vector<Pin> pins;
+  /// Programs that were cut from one: the same parameter has the same letter in all of them, and each gets only the
+  /// letters that it reads.
+  std::vector<std::vector<ProgramId>> parts;
   bool ignore_case = true;
 };
 

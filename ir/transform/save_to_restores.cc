@@ -8,6 +8,7 @@
 #include "ir/analysis/call_graph.h"
 #include "ir/analysis/cfg.h"
 #include "ir/analysis/modal_state.h"
+#include "ir/transform/mode_use.h"
 #include "ir/transform/program_editor.h"
 
 namespace ncport::ir::transform {
@@ -96,11 +97,17 @@ class Pass {
     }
   }
 
-  /// Words that put the changed groups back to `before`; a group that is not one value is a finding at `at`.
-  std::vector<Word> WordsFor(ProgramId callee, const ModalState& before, const SourceRange& at) {
+  /// Words that put the changed groups back to `before`; a group that is not one value is a finding at `at`. `call`:
+  /// the block behind which they will stand, invalid inside the callee; a mode that nothing behind it uses stays as it
+  /// is.
+  std::vector<Word> WordsFor(ProgramId callee, const ModalState& before, const SourceRange& at, ProgramId caller,
+                             BlockId call) {
     std::vector<Word> words;
     for (std::size_t group = 0; group < std::size(kGroups); ++group) {
       if ((changes_[callee.value] >> group & 1U) == 0) continue;
+      if (call.Valid() && IsSilent(kGroups[group].op) &&
+          !ModeIsUsedBehind(module_, graphs_, caller, call, kGroups[group].op))
+        continue;
       const std::uint8_t value = kGroups[group].value(before);
       if (value == 0) {
         // A group that was never set has nothing to go back to only if nothing relies on it: that is not known here.
@@ -120,11 +127,17 @@ class Pass {
     return words;
   }
 
+  /// Groups whose words by themselves make the machine do nothing.
+  static bool IsSilent(WordOp op) {
+    return op == WordOp::kMotion || op == WordOp::kPlane || op == WordOp::kDistance || op == WordOp::kDiameter;
+  }
+
   /// The words that put back stand in front of each return of the program.
   void RestoreInside(ProgramId program) {
     const IdRange<BlockId> blocks = module_.programs[program].blocks;
     if (blocks.Empty()) return;
-    const std::vector<Word> words = WordsFor(program, flow_.Entry(program), module_.RangeOf(module_.blocks[blocks[0]]));
+    const std::vector<Word> words =
+        WordsFor(program, flow_.Entry(program), module_.RangeOf(module_.blocks[blocks[0]]), {}, {});
     if (words.empty()) return;
     ProgramEditor editor(module_, program, "save_to_restores");
     for (const BlockId id : blocks) {
@@ -171,7 +184,8 @@ class Pass {
         const ProgramId callee = module_.calls[word.Extra<CallId>()].program;
         if (!callee.Valid() || !module_.programs[callee].saves_modal_state) continue;
         if (inside_[callee.value]) continue;
-        const std::vector<Word> words = WordsFor(callee, flow_.At(program, id), module_.RangeOf(block, word));
+        const std::vector<Word> words =
+            WordsFor(callee, flow_.At(program, id), module_.RangeOf(block, word), program, id);
         if (words.empty()) continue;
         Block made = editor.MakeBlock(id);
         made.skip_level = block.skip_level;

@@ -36,6 +36,10 @@ class Pass {
     }
     return false;
   }
+  /// A blank line or a comment that nothing leads to.
+  [[nodiscard]] static bool IsText(const Block& block) {
+    return block.words.Empty() && !block.label.Valid() && block.number == Block::kNoNumber && block.flags == 0;
+  }
   void Refuse(const Block& block, std::string_view what) {
     ok_ = false;
     sink_.Report(diag::Code::kNotExpressible, module_.RangeOf(block), what, "a machine whose macros call no tools")
@@ -338,11 +342,27 @@ void Pass::Split(ProgramId program, BlockId at) {
   // Definitions of the second part: locals start anew there.
   const IdRange<BlockId> blocks = module_.programs[program].blocks;
   Program part = module_.programs[program];
-  part.name = module_.strings.Intern(fmt::format("{}_{}", module_.View(part.name), result_.programs.size() + 2));
-  part.blocks = {at.value + 1, blocks.begin + blocks.count - at.value - 1};
+  const auto known = std::find_if(result_.programs.begin(), result_.programs.end(), [&](const SplitProgram& split) {
+    return std::find(split.parts.begin(), split.parts.end(), program) != split.parts.end();
+  });
+  const bool first_cut = known == result_.programs.end();
+  const ProgramId whole = first_cut ? program : known->whole;
+  part.name = module_.strings.Intern(
+      fmt::format("{}_{}", module_.View(module_.programs[whole].name), first_cut ? 2 : known->parts.size() + 1));
+  // Comments and blank lines above the tool change speak of what comes behind it.
+  BlockId first_of_head = at;
+  while (first_of_head.value > blocks.begin && IsText(module_.blocks[BlockId{std::size_t{first_of_head.value} - 1}]))
+    first_of_head = BlockId{std::size_t{first_of_head.value} - 1};
+  part.blocks = {static_cast<std::uint32_t>(module_.blocks.Size()), 0};
+  for (std::uint32_t i = first_of_head.value; i < blocks.begin + blocks.count; ++i) {
+    if (i == at.value) continue;
+    const Block copy = module_.blocks[BlockId{std::size_t{i}}];
+    module_.blocks.Add(copy);
+    ++part.blocks.count;
+  }
   const ProgramId part_id = module_.programs.Add(part);
   const Twins twins = CopyVariables(program, part_id);
-  const IdRange<BlockId> head{blocks.begin, at.value - blocks.begin};
+  const IdRange<BlockId> head{blocks.begin, first_of_head.value - blocks.begin};
   CopyDefinitions(head, part_id, twins, needed);
 
   // The first part ends where the tool change stood; a jump to the tool change ends there too.
@@ -413,10 +433,7 @@ void Pass::Split(ProgramId program, BlockId at) {
     }
     calls.Apply();
   }
-  const auto known = std::find_if(result_.programs.begin(), result_.programs.end(), [&](const SplitProgram& split) {
-    return std::find(split.parts.begin(), split.parts.end(), program) != split.parts.end();
-  });
-  if (known == result_.programs.end()) {
+  if (first_cut) {
     result_.programs.push_back({program, {program, part_id}});
   } else {
     known->parts.push_back(part_id);

@@ -29,12 +29,14 @@ TEST_CASE("the caller's modes are put back behind a call (sinumerik-7.3)") {
   const std::string text =
       "program M main @m:0\n"
       "  @m:1 : call name SUB calls SUB\n"
-      "  @m:2 : program-end #30\n" +
+      "  @m:2 : axis X = 5\n"
+      "  @m:3 : program-end #30\n" +
       std::string(kSub);
   CHECK(Restore(text, sink, Start()) ==
         "program M main\n"
         "call name SUB calls SUB\n"
         "distance absolute {added}\n"
+        "axis X = 5\n"
         "program-end #30\n"
         "program SUB sub\n"
         "distance incremental\n"
@@ -69,10 +71,28 @@ TEST_CASE("what the modes were must be one value") {
   const std::string text =
       "program M main @m:0\n"
       "  @m:1 : call name SUB calls SUB\n"
-      "  @m:2 : program-end #30\n" +
+      "  @m:2 : axis X = 5\n"
+      "  @m:3 : program-end #30\n" +
       std::string(kSub);
   Restore(text, sink, {});
   CHECK(sink.HasErrors());
+}
+
+TEST_CASE("a mode that every way sets again before it is used is not put back, whatever it was") {
+  diag::Sink sink;
+  const auto behind = [&](const std::string& blocks, const ModalState& start) {
+    const std::string whole =
+        Restore("program M main @m:0\n  @m:1 : call name SUB calls SUB\n" + blocks + std::string(kSub), sink, start);
+    return whole.find("absolute {added}") != std::string::npos;
+  };
+  CHECK_FALSE(behind("  @m:2 : program-end #30\n", {}));
+  CHECK_FALSE(behind("  @m:2 : spindle 0 cw\n  @m:3 : axis X = 5 ; distance absolute\n  @m:4 : program-end #30\n", {}));
+  CHECK_FALSE(sink.HasErrors());
+  // Under a condition, in a block that may be skipped, behind a move, in a program that another one goes on behind.
+  CHECK(behind("  @m:2 : axis X = 5\n  @m:3 : distance absolute\n  @m:4 : program-end #30\n", Start()));
+  CHECK(behind("  @m:2 skip 0 : distance absolute\n  @m:3 : axis X = 5\n  @m:4 : program-end #30\n", Start()));
+  CHECK(behind("  @m:2 : call name SUB calls SUB\n  @m:3 : distance absolute\n  @m:4 : program-end #30\n", Start()));
+  CHECK(behind("  @m:2 : return plain\n", Start()));
 }
 
 TEST_CASE("a program that saves nothing stays as it is") {

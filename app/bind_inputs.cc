@@ -93,6 +93,8 @@ std::vector<prove::BoundInput> Binder::Arguments() {
         continue;
       const ir::Call& call = source_.calls[word.Extra<ir::CallId>()];
       if (!call.program.Valid() || is_call_) continue;
+      // The text of a standard cycle is fitted to its calls: what they give is no input.
+      if (source_.programs[call.program].library) continue;
       callees.insert(call.program.value);
       calls_.push_back(word.Extra<ir::CallId>());
     }

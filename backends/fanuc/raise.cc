@@ -17,6 +17,7 @@
 #include "backends/fanuc/limit_nesting.h"
 #include "backends/fanuc/mazak_lathe_rules.h"
 #include "backends/fanuc/mill_tools.h"
+#include "backends/fanuc/modal_calls.h"
 #include "backends/fanuc/raise_words.h"
 #include "backends/fanuc/shifts.h"
 #include "backends/fanuc/source_meanings.h"
@@ -25,6 +26,7 @@
 #include "backends/fanuc/word_digits.h"
 #include "dialects/fanuc/words.h"
 #include "ir/transform/absolute_dimensions.h"
+#include "ir/transform/join_tests.h"
 #include "ir/transform/linear_form.h"
 #include "ir/transform/lower_expressions.h"
 #include "ir/transform/names_to_numbers.h"
@@ -32,6 +34,7 @@
 #include "ir/transform/resolve_axes.h"
 #include "ir/transform/resolve_increments.h"
 #include "ir/transform/save_to_restores.h"
+#include "ir/transform/specialize_programs.h"
 #include "ir/transform/split_at_tool_change.h"
 #include "ir/transform/split_statements.h"
 #include "ir/transform/structure_to_jumps.h"
@@ -47,6 +50,7 @@ using namespace ir::transform;
 
 NamesToNumbersConfig CellConfig(const RaiseInput& input, const SplitResult& split) {
   NamesToNumbersConfig config;
+  config.modal_keeps_locals = input.source_machine->modal_call_keeps_locals;
   for (const SplitProgram& whole : split.programs) config.parts.push_back(whole.parts);
   // Letters that travel plainly on all controls of the family: no I J K (list II), no G L N O P, no M S T
   // (mazak-lathe-10.1).
@@ -375,6 +379,8 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   const bool framed = NeedFrame(input, sink);
   // Another Fanuc control's X100 is 0.1 mm: the value, since here every number gets its point.
   const bool in_units = ResolveIncrements(module, machine, entry, sink);
+  SpecializePrograms(module, machine, entry);
+  const bool modal = MapModalCalls(input, module, sink);
   {
     const ir::analysis::FlowGraphs graphs(module);
     const ir::analysis::CallGraph calls(module);
@@ -386,7 +392,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   EndsToReturns(input, module);
   PiToNumber(module);
   if (!ShiftSkipLevels(input, module, sink)) return false;
-  bool ok = RefuseInputs(input, out, sink) && in_units;
+  bool ok = RefuseInputs(input, out, sink) && in_units && modal;
   ok = RefuseRepeatedCalls(input, module, sink) && ok;
   ok = SaveToRestores(module, machine, entry, sink) && ok;
   for (const ir::ProgramId program : module.programs.Ids()) SplitStatements(module, program);
@@ -431,6 +437,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   // Expressions before structure: a test that needs statements makes IF blocks; structure before names: it makes
   // locals.
   for (const ir::ProgramId program : module.programs.Ids()) {
+    JoinTests(module, program);
     LowerExpressionsConfig expressions;
     expressions.compare_tolerance = machine.compare_tolerance;
     expressions.for_counter_rounds = machine.for_counter_rounds;

@@ -485,6 +485,13 @@ CallId ModalFlow::ActiveModalCall(ProgramId program, BlockId block) const {
   return call;
 }
 
+ModalFlow::ModalCall ModalFlow::ModalCallBefore(ProgramId program, BlockId block) const {
+  if (modal_programs_.empty() || !Reached(program, block)) return ModalCall::kNone;
+  const std::uint32_t active = before_[block.value].modal_call;
+  if (active == kNoCall) return ModalCall::kNone;
+  return active == 0 || active == kSame32 || active == kNever32 ? ModalCall::kUnknown : ModalCall::kActive;
+}
+
 bool ModalFlow::Reached(ProgramId program, BlockId block) const {
   return !IsNever(before_[block.value]) && !IsNever(entries_[program.value]);
 }

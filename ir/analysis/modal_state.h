@@ -43,6 +43,9 @@ class ModalFlow {
   [[nodiscard]] bool ModalCallPossible(ProgramId program, BlockId block) const;
   /// The one modal call whose program may run behind the block; none: there is none, or not one on every way.
   [[nodiscard]] CallId ActiveModalCall(ProgramId program, BlockId block) const;
+  /// Whether a modal call is active on arrival at the block: on no way, on every way, or on some.
+  enum class ModalCall : std::uint8_t { kNone, kActive, kUnknown };
+  [[nodiscard]] ModalCall ModalCallBefore(ProgramId program, BlockId block) const;
   /// False if no way leads to the block from a start of its program that is ever taken.
   [[nodiscard]] bool Reached(ProgramId program, BlockId block) const;
 

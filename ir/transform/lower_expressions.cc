@@ -211,7 +211,11 @@ ExprId Lowering::Comparison(const Expr& expr) {
   measure = Simple(measure, "LIMIT");
   const ExprId band = Band(measure);
   const bool swapped = expr.op == ExprOp::kLess || expr.op == ExprOp::kGreaterEqual;
-  ExprId difference = make_.Binary(ExprOp::kSubtract, swapped ? right : left, swapped ? left : right);
+  const ExprId greater = swapped ? right : left, less = swapped ? left : right;
+  const Expr subtracted = module_.exprs[less];
+  const bool negative = subtracted.op == ExprOp::kNegate && module_.exprs[ExprId{subtracted.a}].op == ExprOp::kLiteral;
+  ExprId difference = negative ? make_.Binary(ExprOp::kAdd, greater, ExprId{subtracted.a})
+                               : make_.Binary(ExprOp::kSubtract, greater, less);
   if (expr.op == ExprOp::kEqual || expr.op == ExprOp::kNotEqual)
     difference = make_.Function(Function::kAbs, {difference});
   const bool apart = expr.op == ExprOp::kNotEqual || expr.op == ExprOp::kLess || expr.op == ExprOp::kGreater;

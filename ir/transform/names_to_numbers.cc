@@ -71,9 +71,10 @@ class Allocation {
   [[nodiscard]] SourceRange PlaceOf(const Variable& variable) const {
     return {variable.file, variable.line, variable.begin, variable.begin + variable.length};
   }
+  /// Variables of the program live in the cells of its level.
   [[nodiscard]] bool OwnsLocals(ProgramId program) const {
-    return std::any_of(module_.variables.All().begin(), module_.variables.All().end(), [&](const Variable& variable) {
-      return variable.owner == program && variable.scope != Scope::kGlobal && variable.scope != Scope::kChannel;
+    return std::any_of(homes_.begin(), homes_.end(), [&](const auto& home) {
+      return module_.variables[VariableId{home.first}].owner == program && !home.second.common;
     });
   }
 
@@ -91,10 +92,12 @@ class Allocation {
   std::map<std::uint32_t, std::set<std::uint32_t>> used_cells_;  // SpaceId -> cells of the source
   std::set<std::uint32_t> indexed_spaces_;
   std::set<std::uint32_t> read_variables_;
-  std::set<std::uint32_t> feeds_;                    // parameters that stand alone as a feed
-  std::map<std::uint32_t, ArgumentLetter> letters_;  // VariableId of a parameter
-  std::size_t steps_left_ = 1'000'000;               // of WrittenBeforeRead
-  std::set<std::uint32_t> unread_parts_;             // parameters that a part of a cut program gets on no way
+  std::set<std::uint32_t> modal_;                             // ProgramId: called modally, and locals keep their values
+  std::map<std::uint32_t, std::set<std::uint32_t>> written_;  // ProgramId -> variables that its blocks write
+  std::set<std::uint32_t> feeds_;                             // parameters that stand alone as a feed
+  std::map<std::uint32_t, ArgumentLetter> letters_;           // VariableId of a parameter
+  std::size_t steps_left_ = 1'000'000;                        // of WrittenBeforeRead
+  std::set<std::uint32_t> unread_parts_;                      // parameters that a part of a cut program gets on no way
   NamesToNumbersResult result_;
 };
 
@@ -113,6 +116,19 @@ void Allocation::FindUses() {
       return id;
     });
     FindFeedParameters(program);
+    for (const BlockId block : module_.programs[program].blocks) {
+      for (const WordId id : module_.blocks[block].words) {
+        const Word& word = module_.words[id];
+        if (word.op == WordOp::kModalCall && word.Extra<CallId>().Valid() && config_.modal_keeps_locals &&
+            module_.calls[word.Extra<CallId>()].program.Valid())
+          modal_.insert(module_.calls[word.Extra<CallId>()].program.value);
+        VisitWordExprs(module_, word, [&](ExprId root, bool place) {
+          const Expr& expr = module_.exprs[root];
+          if (place && (expr.op == ExprOp::kVariable || expr.op == ExprOp::kElement))
+            written_[program.value].insert(expr.a);
+        });
+      }
+    }
   }
 }
 
@@ -454,9 +470,14 @@ void Allocation::LowerDefinitions(ProgramId program, const analysis::Cfg& cfg) {
       const VariableId variable_id = word.Extra<VariableId>();
       const Variable variable = module_.variables[variable_id];
       if (!homes_.contains(variable_id.value)) continue;
-      const bool idle =
-          !variable.initial.Valid() && !variable.initial_list.Valid() && WrittenBeforeRead(cfg, id, variable_id);
+      const bool plain = !variable.initial.Valid() || module_.exprs[variable.initial].op == ExprOp::kLiteral;
+      const bool idle = plain && !variable.initial_list.Valid() && WrittenBeforeRead(cfg, id, variable_id);
       if (idle) continue;
+      if (modal_.contains(program.value) && written_[program.value].contains(variable_id.value)) {
+        Refuse(module_.RangeOf(block, word),
+               fmt::format("{}, which keeps its value between the runs of a modal call", module_.View(variable.name)));
+        continue;
+      }
       const auto assign = [&](ExprId place, ExprId value) {
         Word made;
         made.op = WordOp::kAssign;

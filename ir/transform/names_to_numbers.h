@@ -57,6 +57,8 @@ struct NamesToNumbersConfig {
   /// letters that it reads.
   std::vector<std::vector<ProgramId>> parts;
   bool ignore_case = true;
+  /// Locals of the source's modal subprograms keep their values between runs, and their definitions do not run again.
+  bool modal_keeps_locals = false;
 };
 
 struct NamesToNumbersResult {

@@ -117,6 +117,7 @@ class Pass {
                      "the called program puts it back (SAVE), and what it was is not one value here");
         continue;
       }
+      if (kGroups[group].op == WordOp::kMotion && LeavesAs(callee, group, value)) continue;
       Word made;
       made.op = kGroups[group].op;
       made.index = value;
@@ -125,6 +126,22 @@ class Pass {
       words.push_back(made);
     }
     return words;
+  }
+
+  /// At each of its returns the group has this value anyway.
+  bool LeavesAs(ProgramId program, std::size_t group, std::uint8_t value) const {
+    const IdRange<BlockId> blocks = module_.programs[program].blocks;
+    bool returned = false;
+    for (const BlockId id : blocks) {
+      returned = false;
+      for (const WordId word_id : module_.blocks[id].words) {
+        const Word& word = module_.words[word_id];
+        const bool leaves = word.op == WordOp::kReturn || word.op == WordOp::kProgramEnd;
+        returned = returned || leaves;
+        if (leaves && flow_.Reached(program, id) && kGroups[group].value(flow_.At(program, id)) != value) return false;
+      }
+    }
+    return returned;  // the text ends with one
   }
 
   /// Groups whose words by themselves make the machine do nothing.

@@ -1,0 +1,87 @@
+#include "backends/fanuc/modal_calls.h"
+
+#include <vector>
+
+#include "ir/analysis/call_graph.h"
+#include "ir/analysis/cfg.h"
+#include "ir/analysis/modal_state.h"
+#include "ir/transform/program_editor.h"
+
+namespace ncport::backends::fanuc {
+
+namespace {
+
+using ir::Block;
+using ir::BlockId;
+using ir::Word;
+using ir::WordId;
+using ir::WordOp;
+using ir::analysis::ModalFlow;
+
+Word Cancel() {
+  Word word;
+  word.op = WordOp::kModalCall;
+  word.phase = ir::DefaultPhaseOf(WordOp::kModalCall);
+  word.flags = Word::kAdded;
+  return word;
+}
+
+}  // namespace
+
+bool MapModalCalls(const RaiseInput& input, ir::Module& module, diag::Sink& sink) {
+  // The same stack on both sides: nothing differs.
+  if (input.source_machine->modal_call_levels > 1) return true;
+  const ir::ModalState entry = input.config != nullptr ? input.config->entry : ir::ModalState{};
+  const ir::analysis::FlowGraphs graphs(module);
+  const ir::analysis::CallGraph calls(module);
+  const ModalFlow flow(module, *input.source_machine, graphs, calls, {input.source_machine->start, entry});
+  bool ok = true;
+  for (const ir::ProgramId program : module.programs.Ids()) {
+    ir::transform::ProgramEditor editor(module, program, "modal_calls");
+    for (const BlockId id : module.programs[program].blocks) {
+      const Block block = module.blocks[id];
+      for (const WordId word_id : block.words) {
+        const Word word = module.words[word_id];
+        if (word.op != WordOp::kModalCall || !flow.Reached(program, id)) continue;
+        const bool sets = word.Extra<ir::CallId>().Valid();
+        switch (flow.ModalCallBefore(program, id)) {
+          case ModalFlow::ModalCall::kUnknown:
+            ok = false;
+            sink.Report(diag::Code::kNotExpressible, module.RangeOf(block, word),
+                        sets ? "a modal call that ends another one only on some ways to it"
+                             : "the end of a modal call that is active only on some ways to it",
+                        input.profile->name)
+                .help = "end the modal call by a block of its own on each way";
+            break;
+          case ModalFlow::ModalCall::kActive: {
+            if (!sets) break;
+            Block end = editor.MakeBlock(id);
+            end.skip_level = block.skip_level;
+            editor.SetWords(end, {Cancel()});
+            end.label = block.label;
+            end.number = block.number;
+            end.number_digits = block.number_digits;
+            module.blocks[id].label = {};
+            module.blocks[id].number = Block::kNoNumber;
+            editor.InsertBefore(id, end);
+            break;
+          }
+          case ModalFlow::ModalCall::kNone: {
+            if (sets) break;
+            std::vector<Word> kept;
+            for (const WordId other : block.words) {
+              if (other != word_id) kept.push_back(module.words[other]);
+            }
+            Block rest = block;
+            editor.SetWords(rest, kept);
+            module.blocks[id].words = rest.words;
+          }
+        }
+      }
+    }
+    editor.Apply();
+  }
+  return ok;
+}
+
+}  // namespace ncport::backends::fanuc

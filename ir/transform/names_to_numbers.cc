@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <map>
 #include <set>
 #include <utility>
 
+#include "ir/analysis/call_graph.h"
 #include "ir/analysis/cfg.h"
 #include "ir/builder.h"
 #include "ir/transform/linear_form.h"
@@ -35,7 +37,7 @@ std::uint32_t CellCount(const Variable& variable) {
 class Allocation {
  public:
   Allocation(Module& module, const NamesToNumbersConfig& config, diag::Sink& sink)
-      : module_(module), config_(config), sink_(sink), make_(module) {}
+      : module_(module), config_(config), sink_(sink), make_(module), calls_(module) {}
 
   NamesToNumbersResult Run();
 
@@ -49,6 +51,8 @@ class Allocation {
   void FindUses();
   void FindFeedParameters(ProgramId program);
   // Where it goes.
+  void ReservePins();
+  void ReservePin(const NamesToNumbersConfig::Pin& pin, std::string_view name, std::uint32_t count, ProgramId owner);
   void KeepLocals();
   void PlaceSpaces();
   void ChooseLetters(const std::vector<ProgramId>& parts);
@@ -62,6 +66,7 @@ class Allocation {
   const NamesToNumbersConfig::Pin* PinOf(ProgramId program, std::string_view name) const;
   // The program text.
   void LowerDefinitions(ProgramId program, const analysis::Cfg& cfg);
+  [[nodiscard]] std::uint32_t RepeatCount(const AssignList& list, std::uint32_t all) const;
   bool WrittenBeforeRead(const analysis::Cfg& cfg, BlockId definition, VariableId variable);
   void LowerCalls(ProgramId program);
   void ReplaceNames(ProgramId program);
@@ -70,6 +75,12 @@ class Allocation {
   void Refuse(const SourceRange& at, std::string_view what);
   [[nodiscard]] SourceRange PlaceOf(const Variable& variable) const {
     return {variable.file, variable.line, variable.begin, variable.begin + variable.length};
+  }
+  /// Its value is one for all calls of all programs.
+  [[nodiscard]] bool IsShared(VariableId id) const {
+    const Scope scope = module_.variables[id].scope;
+    return scope == Scope::kChannel || scope == Scope::kGlobal ||
+           (scope == Scope::kProgram && seen_elsewhere_.contains(id.value));
   }
   /// Variables of the program live in the cells of its level.
   [[nodiscard]] bool OwnsLocals(ProgramId program) const {
@@ -82,6 +93,7 @@ class Allocation {
   const NamesToNumbersConfig& config_;
   diag::Sink& sink_;
   ExprBuilder make_;
+  analysis::CallGraph calls_;
   SpaceId space_;
 
   std::map<std::uint32_t, Home> homes_;                           // VariableId -> first cell
@@ -89,11 +101,13 @@ class Allocation {
   std::map<std::uint32_t, std::int64_t> offsets_;                 // source space reached by an index -> offset
   std::map<std::uint32_t, std::set<std::uint32_t>> used_locals_;  // ProgramId -> cells taken
   std::set<std::uint32_t> used_common_;
+  std::set<std::uint32_t> pinned_common_;
   std::map<std::uint32_t, std::set<std::uint32_t>> used_cells_;  // SpaceId -> cells of the source
   std::set<std::uint32_t> indexed_spaces_;
   std::set<std::uint32_t> read_variables_;
   std::set<std::uint32_t> modal_;                             // ProgramId: called modally, and locals keep their values
   std::map<std::uint32_t, std::set<std::uint32_t>> written_;  // ProgramId -> variables that its blocks write
+  std::set<std::uint32_t> seen_elsewhere_;                    // variables of a main program that its subprograms name
   std::set<std::uint32_t> feeds_;                             // parameters that stand alone as a feed
   std::map<std::uint32_t, ArgumentLetter> letters_;           // VariableId of a parameter
   std::size_t steps_left_ = 1'000'000;                        // of WrittenBeforeRead
@@ -112,7 +126,11 @@ void Allocation::FindUses() {
       const Expr& expr = module.exprs[id];
       if (expr.op == ExprOp::kCell) used_cells_[expr.a].insert(expr.b);
       if (expr.op == ExprOp::kCellAt) indexed_spaces_.insert(expr.b);
-      if (expr.op == ExprOp::kVariable || expr.op == ExprOp::kElement) read_variables_.insert(expr.a);
+      if (expr.op == ExprOp::kVariable || expr.op == ExprOp::kElement) {
+        read_variables_.insert(expr.a);
+        const ProgramId owner = module.variables[VariableId{std::size_t{expr.a}}].owner;
+        if (owner.Valid() && owner != program) seen_elsewhere_.insert(expr.a);
+      }
       return id;
     });
     FindFeedParameters(program);
@@ -187,6 +205,54 @@ bool Allocation::TakeLocal(ProgramId program, std::uint32_t count, std::uint32_t
   return false;
 }
 
+/// The cells of a pin belong to nothing else, exist, and outlive a call where the variable does. `owner`: the program
+/// whose calls have the variable, none = all programs share it.
+void Allocation::ReservePin(const NamesToNumbersConfig::Pin& pin, std::string_view name, std::uint32_t count,
+                            ProgramId owner) {
+  const std::uint32_t last = pin.cell + count - 1;
+  const bool local = pin.cell <= config_.locals.last;
+  if (pin.cell < config_.cells.first || last > config_.cells.last || last < pin.cell ||
+      (local && (!owner.Valid() || last > config_.locals.last))) {
+    return Refuse({}, fmt::format("{} in #{}, which is no cell for it,", name, pin.cell));
+  }
+  std::set<std::uint32_t>& taken = local ? used_locals_[owner.value] : pinned_common_;
+  for (std::uint32_t cell = pin.cell; cell <= last; ++cell) {
+    if (!taken.insert(cell).second) {
+      return Refuse({}, fmt::format("{} in #{}, where another variable is pinned,", name, cell));
+    }
+  }
+  if (!local) used_common_.insert(taken.begin(), taken.end());
+}
+
+void Allocation::ReservePins() {
+  for (const auto& [space, cells] : used_cells_) {
+    const Space& source = module_.spaces[SpaceId{std::size_t{space}}];
+    if (SpaceId{std::size_t{space}} == space_ || source.visibility == Visibility::kLevel ||
+        indexed_spaces_.contains(space))
+      continue;
+    for (const std::uint32_t number : cells) {
+      const std::string name = fmt::format("{}{}", module_.View(source.name), number);
+      if (const auto* pin = PinOf({}, name)) ReservePin(*pin, name, 1, {});
+    }
+  }
+  for (const std::uint32_t space : indexed_spaces_) {
+    const Space& source = module_.spaces[SpaceId{std::size_t{space}}];
+    if (SpaceId{std::size_t{space}} == space_ || source.visibility == Visibility::kLevel) continue;
+    const std::string name = fmt::format("{}{}", module_.View(source.name), source.first);
+    if (const auto* pin = PinOf({}, name)) ReservePin(*pin, name, source.last - source.first + 1, {});
+  }
+  for (const VariableId id : module_.variables.Ids()) {
+    const Variable& variable = module_.variables[id];
+    if (variable.scope == Scope::kParameter || !read_variables_.contains(id.value)) continue;
+    const bool shared = IsShared(id);
+    const std::string_view name = module_.View(variable.name);
+    if (const auto* pin = PinOf(variable.owner, name))
+      ReservePin(*pin, name, CellCount(variable), shared ? ProgramId{} : variable.owner);
+  }
+  // Pins of what does not occur keep their cells too: the map stays when it comes back.
+  for (const NamesToNumbersConfig::Pin& pin : config_.pins) used_common_.insert(pin.cell);
+}
+
 /// Numbered locals of the source stay what they are: the target has the same ones at each call. What the passes made
 /// beside them takes others, in every program: some may run with the locals of their caller.
 void Allocation::KeepLocals() {
@@ -207,7 +273,6 @@ void Allocation::KeepLocals() {
 }
 
 void Allocation::PlaceSpaces() {
-  for (const NamesToNumbersConfig::Pin& pin : config_.pins) used_common_.insert(pin.cell);
   for (const std::uint32_t space : indexed_spaces_) {
     if (SpaceId{space} == space_ || offsets_.contains(space)) continue;
     // An index may reach any cell: the space moves as one piece with one offset, or not at all.
@@ -217,7 +282,6 @@ void Allocation::PlaceSpaces() {
     if (const NamesToNumbersConfig::Pin* pin =
             PinOf({}, fmt::format("{}{}", module_.View(source.name), source.first))) {
       first = pin->cell;
-      for (std::uint32_t i = 0; i < count; ++i) used_common_.insert(first + i);
     } else if (!TakeCommon(count, first)) {
       Refuse({}, fmt::format("{}[..] with a computed number ({} cells that move together)", module_.View(source.name),
                              count));
@@ -347,6 +411,15 @@ bool Allocation::PlaceParameter(ProgramId program, VariableId id) {
     return false;
   }
   if (variable.by_reference || variable.dimension_count > 0) {
+    if (CellCount(variable) == 0) {
+      Refuse(PlaceOf(variable), fmt::format("parameter {}: an array whose size its caller knows", mapping.source));
+      return false;
+    }
+    if (calls_.Recursive(program)) {
+      Refuse(PlaceOf(variable),
+             fmt::format("parameter {} by reference of a program that calls itself", mapping.source));
+      return false;
+    }
     std::uint32_t cell = 0;
     if (!TakeCommon(CellCount(variable), cell)) {
       Refuse(PlaceOf(variable),
@@ -376,6 +449,11 @@ void Allocation::PlaceLocal(ProgramId program, VariableId id) {
   const Variable variable = module_.variables[id];
   const std::string name(module_.View(variable.name));
   if (!read_variables_.contains(id.value)) return;
+  if (variable.initial_list.Valid()) {
+    const AssignList& list = module_.assign_lists[variable.initial_list];
+    if (list.repeat && list.count.Valid() && module_.exprs[list.count].op != ExprOp::kLiteral)
+      return Refuse(PlaceOf(variable), fmt::format("start values of {} as many as an expression says", name));
+  }
   if (variable.type == Type::kString || variable.type == Type::kAxis || variable.type == Type::kFrame) {
     return Refuse(PlaceOf(variable), fmt::format("variable {} that is no number", name));
   }
@@ -384,19 +462,21 @@ void Allocation::PlaceLocal(ProgramId program, VariableId id) {
   mapping.source = name;
   mapping.variable = id;
   mapping.count = CellCount(variable);
-  const bool shared = variable.scope == Scope::kChannel || variable.scope == Scope::kGlobal;
   if (const NamesToNumbersConfig::Pin* pin = PinOf(program, name)) {
     mapping.first = pin->cell;
     mapping.common = pin->cell > config_.locals.last;
-    if (!mapping.common) used_locals_[program.value].insert(pin->cell);
-  } else if (shared) {
+  } else if (variable.scope == Scope::kChannel || variable.scope == Scope::kGlobal) {
     return Refuse(PlaceOf(variable),
                   fmt::format("{}, which other programs may use and no [variables] line pins to a cell", name));
-  } else if (!TakeLocal(program, mapping.count, mapping.first)) {
+  } else if (IsShared(id) || !TakeLocal(program, mapping.count, mapping.first)) {
     if (!TakeCommon(mapping.count, mapping.first)) {
       return Refuse(PlaceOf(variable), fmt::format("variable {}: no free cells are left", name));
     }
     mapping.common = true;
+  }
+  if (mapping.common && !IsShared(id) && program.Valid() && calls_.Recursive(program)) {
+    return Refuse(PlaceOf(variable),
+                  fmt::format("variable {} of a program that calls itself, in a cell that all its calls share,", name));
   }
   homes_[id.value] = {mapping.first, mapping.common};
   if (mapping.count > 1) mapping.source += fmt::format("[0] to [{}]", mapping.count - 1);
@@ -455,6 +535,14 @@ bool Allocation::WrittenBeforeRead(const analysis::Cfg& cfg, BlockId definition,
   return true;
 }
 
+/// Elements that a repeated start value fills, of `all`.
+std::uint32_t Allocation::RepeatCount(const AssignList& list, std::uint32_t all) const {
+  if (!list.count.Valid()) return all;
+  const Expr& count = module_.exprs[list.count];
+  return count.op == ExprOp::kLiteral && count.number < all ? static_cast<std::uint32_t>(std::lround(count.number))
+                                                            : all;
+}
+
 /// A definition sets its variable at each call: that becomes an assignment, unless the next lines set it anyway.
 void Allocation::LowerDefinitions(ProgramId program, const analysis::Cfg& cfg) {
   ProgramEditor editor(module_, program, "names_to_numbers");
@@ -496,7 +584,7 @@ void Allocation::LowerDefinitions(ProgramId program, const analysis::Cfg& cfg) {
         if (variable.initial_list.Valid()) {
           const AssignList list = module_.assign_lists[variable.initial_list];
           if (list.repeat && list.values.count == 1) {
-            value = module_.Item(list.values[0].value);
+            if (i < RepeatCount(list, count)) value = module_.Item(list.values[0].value);
           } else if (i < list.values.count && module_.Item(list.values[i].value).Valid()) {
             value = module_.Item(list.values[i].value);
           }
@@ -582,6 +670,11 @@ void Allocation::LowerCalls(ProgramId program) {
           continue;
         }
         const std::uint32_t count = CellCount(parameter);
+        if (CellCount(module_.variables[VariableId{std::size_t{actual->a}}]) != count) {
+          Refuse(module_.RangeOf(block, word),
+                 fmt::format("argument {} by reference of another size", module_.View(parameter.name)));
+          continue;
+        }
         const Home source = homes_[actual->a];
         for (std::uint32_t cell = 0; cell < count; ++cell) {
           const auto copy = [&](std::uint32_t to, std::uint32_t from) {
@@ -595,7 +688,7 @@ void Allocation::LowerCalls(ProgramId program) {
             return copy_block;
           };
           Block in = copy(home.cell + cell, source.cell + cell);
-          if (cell == 0) {
+          if (module_.blocks[id].number != Block::kNoNumber) {
             in.number = block.number;
             in.number_digits = block.number_digits;
             module_.blocks[id].number = Block::kNoNumber;
@@ -664,6 +757,7 @@ NamesToNumbersResult Allocation::Run() {
       AddSpace(module_, config_.space, config_.cells.first, config_.cells.last, Type::kNumber, StartValue::kVacant);
   FindUses();
   KeepLocals();
+  ReservePins();
   PlaceSpaces();
   for (const ProgramId program : module_.programs.Ids()) {
     const auto group = std::find_if(config_.parts.begin(), config_.parts.end(), [&](const auto& parts) {

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "ir/analysis/forward_flow.h"
+#include "ir/word_values.h"
 
 namespace ncport::ir::analysis {
 
@@ -115,62 +116,7 @@ void Analysis::Read(ExprId id, BlockId block, WordId word, const Keys& written, 
 
 /// All values of a word; the place of an assignment only as far as its number is computed.
 void Analysis::ReadWord(BlockId block, WordId id, const Keys& written, Reads& out) const {
-  const Word& word = module_.words[id];
-  const auto read = [&](ExprId expr) { Read(expr, block, id, written, out); };
-  read(word.value);
-  switch (word.op) {
-    case WordOp::kAssign: {
-      const Expr& place = module_.exprs[word.Extra<ExprId>()];
-      if (place.op == ExprOp::kCellAt) read(ExprId{place.a});
-      if (place.op == ExprOp::kElement || place.op == ExprOp::kSystem) read(word.Extra<ExprId>());
-      return;
-    }
-    case WordOp::kAlarm:
-    case WordOp::kAxisComputed:
-    case WordOp::kMessage:
-      return read(word.Extra<ExprId>());
-    case WordOp::kDefine:
-      return read(module_.variables[word.Extra<VariableId>()].initial);
-    case WordOp::kAssignList: {
-      const AssignList& list = module_.assign_lists[word.Extra<AssignListId>()];
-      read(list.count);
-      for (const ExprItemId item : list.values) read(module_.Item(item.value));
-      return;
-    }
-    case WordOp::kJump:
-      return read(module_.jumps[word.Extra<JumpId>()].target.expr);
-    case WordOp::kRepeatPart: {
-      const Part& part = module_.parts[word.Extra<PartId>()];
-      read(part.first.expr);
-      return read(part.last.expr);
-    }
-    case WordOp::kSwitch: {
-      const Switch& cases = module_.switches[word.Extra<SwitchId>()];
-      for (std::uint32_t i = 0; i < cases.arm_count; ++i) {
-        const SwitchArm& arm = module_.switch_arms[cases.first_arm + i];
-        read(arm.value);
-        read(module_.jumps[arm.jump].target.expr);
-      }
-      return;
-    }
-    case WordOp::kCall:
-    case WordOp::kModalCall:
-    case WordOp::kWorkpiece: {
-      if (!word.Extra<CallId>().Valid()) return;
-      const Call& call = module_.calls[word.Extra<CallId>()];
-      read(call.name_expr);
-      read(call.passes);
-      for (const ArgId arg : call.args) read(module_.args[arg].value);
-      return;
-    }
-    case WordOp::kFor: {
-      const For& loop = module_.fors[word.Extra<ForId>()];
-      read(loop.end);
-      return read(loop.step);
-    }
-    default:
-      return;
-  }
+  VisitValues(module_, module_.words[id], [&](ExprId value) { Read(value, block, id, written, out); });
 }
 
 bool Analysis::Run(ProgramId program) {

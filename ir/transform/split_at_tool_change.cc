@@ -17,7 +17,7 @@
 #include "ir/transform/linear_form.h"
 #include "ir/transform/program_editor.h"
 #include "ir/transform/rewrite_exprs.h"
-#include "ir/transform/word_values.h"
+#include "ir/word_values.h"
 
 namespace ncport::ir::transform {
 

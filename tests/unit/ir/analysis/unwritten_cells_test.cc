@@ -63,3 +63,61 @@ TEST_CASE("ir unwritten_cells: behind a part with computed ends nothing is writt
                        "@- : repeat-part first expression cell R[1]\n@- : assign cell R[2] = 1\n" +
                        kRead2)) == "1 2");
 }
+
+TEST_CASE("ir unwritten_cells: inside a block the order of the text decides") {
+  CHECK(Unwritten(Main("@- : assign cell R[2] = 1; axis X = cell R[2]\n")).empty());
+  CHECK(Unwritten(Main("@- : axis X = cell R[2]; assign cell R[2] = 1\n")) == "2");
+  CHECK(Unwritten(Main("@- : assign cell R[2] = add(cell R[2], 1)\n")) == "2");
+}
+
+TEST_CASE("ir unwritten_cells: writes under a condition, in a loop of no pass, or to a computed number count as none") {
+  const std::string one = "@- : assign cell R[1] = 1\n";
+  CHECK(Unwritten(Main(one + "@- : when = lt:bool(cell R[1], 2); assign cell R[2] = 1\n" + kRead2)) == "2");
+  CHECK(Unwritten(Main("@- : axis Y = 1; skip-rest 1; assign cell R[2] = 1\n" + kRead2)) == "2");
+  CHECK(Unwritten(Main(one +
+                       "@- link +2 : while = lt:bool(cell R[1], 2)\n@- : assign cell R[2] = 1\n"
+                       "@- link -2 : end-while\n" +
+                       kRead2)) == "2");
+  CHECK(Unwritten(Main(one +
+                       "@- link +2 : if = lt:bool(cell R[1], 2)\n@- : assign cell R[2] = 1\n@- link +2 : else\n"
+                       "@- : assign cell R[2] = 2\n@- link -4 : end-if\n" +
+                       kRead2))
+            .empty());
+  CHECK(Unwritten(Main(one + "@- : assign cell-at R[cell R[1]] = 1\n" + kRead2)) == "2");
+  CHECK(Unwritten(Main("@- : assign cell-at R[cell R[3]] = 1\n")) == "3");
+  CHECK(Unwritten(Main(one + "@- skip 1 : call name S calls S\n" + kRead2) + Sub("@- : assign cell R[2] = 1\n")) ==
+        "2");
+}
+
+TEST_CASE("ir unwritten_cells: every word that takes a value reads") {
+  for (const char* word : {"message = call to-text(cell R[1])",
+                           "alarm stops cell R[1] = 1",
+                           "alarm stops = cell R[1]",
+                           "jump forward expression cell R[1]",
+                           "switch (1 => forward label A) = cell R[1]",
+                           "switch (cell R[1] => forward label A) = 2",
+                           "call name S (0: cell R[1])",
+                           "call name S passes cell R[1]",
+                           "modal-call name S (0: cell R[1])",
+                           "call text - by cell R[1]",
+                           "repeat-part first label A single = cell R[1]",
+                           "data-setting name - (0 X: cell R[1])",
+                           "workpiece name - (0: cell R[1])",
+                           "assign-list place element V(0:int) (cell R[1])",
+                           "assign-list place element V(cell R[1]) (1)",
+                           "assign-list place element V(0:int) (1) repeat count cell R[1]",
+                           "assign element V(cell R[1]) = 1",
+                           "axis-computed call axis-from-text(cell R[1]) = 1",
+                           "define W",
+                           "define U"}) {
+    CAPTURE(word);
+    CHECK(Unwritten("program M main\n  var V real local dims 3\n  var W real local initial cell R[1]\n"
+                    "  var U real local dims 3 initial-list (cell R[1])\n  @- : " +
+                    std::string(word) + "\n  @- label A : axis X = 1\n") == "1");
+  }
+}
+
+TEST_CASE("ir unwritten_cells: FOR writes its counter and reads its bounds") {
+  CHECK(Unwritten(Main("@- link +2 : for cell R[1] to cell R[3] step cell R[4] = cell R[5]\n@- : axis X = cell R[1]\n"
+                       "@- link -2 : end-for\n")) == "3 4 5");
+}

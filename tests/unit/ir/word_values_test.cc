@@ -1,13 +1,15 @@
-#include "ir/transform/word_values.h"
+#include "ir/word_values.h"
 
 #include <set>
 
 #include "ir/transform/linear_form.h"
 #include "tests/unit/ir/transform/dump_pass.h"
 
-namespace ncport::ir::transform {
+namespace ncport::ir {
 namespace {
 
+using test::WithCells;
+using transform::VisitReads;
 using Numbers = std::set<std::uint32_t>;
 
 struct Cells {
@@ -20,7 +22,7 @@ Cells Of(std::string_view blocks) {
   Result<Module> parsed = ParseDump(
       "ncport-ir 1\nfile m\nspace R 0..99 real kept all zero\nprogram M main @m:0\n  var A real local\n"
       "  var B real local\n  var L real local dims 4 initial cell:real R[90] initial-list (cell:real R[91], -)\n" +
-          test::WithCells(blocks) +
+          WithCells(blocks) +
           "program SUB sub @m:20\n  param P real parameter\n  param Q real parameter ref\n  @m:21 : axis X = 1\n",
       sink);
   REQUIRE_MESSAGE(parsed.Ok(), (sink.Empty() ? "" : sink.All().front().message));
@@ -79,4 +81,4 @@ TEST_CASE("a call may write the arguments of its parameters by reference, and al
 }
 
 }  // namespace
-}  // namespace ncport::ir::transform
+}  // namespace ncport::ir

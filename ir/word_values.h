@@ -5,7 +5,7 @@
 
 #include "ir/module.h"
 
-namespace ncport::ir::transform {
+namespace ncport::ir {
 
 /// Calls `visit` for every expression whose value the word takes: its own value, operands of its records, arguments,
 /// indices of the places that it writes. Arguments by reference are among them, initialisers of a definition too.
@@ -19,4 +19,4 @@ void VisitPlaces(const Module& module, const Word& word, const std::function<voi
 /// and all variables where the program is not known.
 void VisitReferences(const Module& module, const Word& word, const std::function<void(ExprId)>& visit);
 
-}  // namespace ncport::ir::transform
+}  // namespace ncport::ir

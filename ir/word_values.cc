@@ -1,6 +1,6 @@
-#include "ir/transform/word_values.h"
+#include "ir/word_values.h"
 
-namespace ncport::ir::transform {
+namespace ncport::ir {
 
 namespace {
 
@@ -112,4 +112,4 @@ void VisitReferences(const Module& module, const Word& word, const Visit& visit)
   }
 }
 
-}  // namespace ncport::ir::transform
+}  // namespace ncport::ir

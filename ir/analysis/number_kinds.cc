@@ -265,7 +265,7 @@ NumberKind NumberKinds::Everywhere(const CellKey& slot) const {
 }
 
 NumberKinds::State NumberKinds::Through(const Block& block, State state) const {
-  const bool conditional = block.skip_level != Block::kNoSkip;
+  bool conditional = block.skip_level != Block::kNoSkip;
   const State before = state;
   for (const WordId id : block.words) {
     const Word& word = module_.words[id];
@@ -296,12 +296,14 @@ NumberKinds::State NumberKinds::Through(const Block& block, State state) const {
         if (IsCount(module_.variables[variable].type)) state[slot->second] = NumberKind::kWhole;
         break;
       }
+      case WordOp::kWhen:
+      case WordOp::kSkipRest:
+        conditional = true;
+        break;
       case WordOp::kAssignList:
       case WordOp::kCall:
       case WordOp::kModalCall:
       case WordOp::kRepeatPart:
-      case WordOp::kWhen:
-      case WordOp::kSkipRest:
       case WordOp::kVerbatim:
         for (const auto& [key, slot] : flow_.slots) state[slot] = Everywhere(key);
         break;

@@ -11,6 +11,7 @@
 #include "ir/transform/dimension_pass.h"
 #include "ir/transform/new_local.h"
 #include "ir/transform/rewrite_exprs.h"
+#include "ir/word_values.h"
 
 namespace ncport::ir::transform {
 
@@ -121,13 +122,13 @@ void DimensionPass::FindEffects() {
           if (word.op == WordOp::kWorkOffset || word.op == WordOp::kPresetPosition) now.slots |= MaskOf(kMaxAxes) - 1;
           now.reframes = now.reframes || word.op == WordOp::kFrame || word.op == WordOp::kWorkOffset ||
                          word.op == WordOp::kPresetPosition;
-          if (word.op == WordOp::kAssign) {
-            const Expr& place = module_.exprs[word.Extra<ExprId>()];
+          VisitPlaces(module_, word, [&](ExprId written) {
+            const Expr& place = module_.exprs[written];
             const bool own = (place.op == ExprOp::kVariable || place.op == ExprOp::kElement) &&
                              module_.variables[VariableId{place.a}].owner == program &&
                              !module_.variables[VariableId{place.a}].by_reference;
             now.writes_shared = now.writes_shared || !own;
-          }
+          });
           if (word.op == WordOp::kCall || word.op == WordOp::kModalCall) {
             const auto call = word.Extra<CallId>();
             if (!call.Valid()) continue;
@@ -318,7 +319,8 @@ ExprId DimensionPass::Held(Slot slot) {
   return make_.Variable(held);
 }
 
-bool DimensionPass::ReadsPlace(const LinearForm& form, ExprId place) const {
+/// `whole`: more than the place is written, of its array or space.
+bool DimensionPass::ReadsPlace(const LinearForm& form, ExprId place, bool whole) const {
   const Expr& target = module_.exprs[place];
   const bool target_cell = target.op == ExprOp::kCell || target.op == ExprOp::kCellAt;
   bool reads = false;
@@ -331,7 +333,7 @@ bool DimensionPass::ReadsPlace(const LinearForm& form, ExprId place) const {
         reads = reads || read.a == target.a;
         return;
       }
-      const bool both_fixed = read.op == ExprOp::kCell && target.op == ExprOp::kCell;
+      const bool both_fixed = !whole && read.op == ExprOp::kCell && target.op == ExprOp::kCell;
       reads = reads || !both_fixed || (read.a == target.a && read.b == target.b);
     });
   }
@@ -393,6 +395,7 @@ void DimensionPass::PutInto(ExprId place, BlockId id, SlotValue& value, bool bef
       made.label = std::exchange(block.label, StringId{});
       made.number = std::exchange(block.number, Block::kNoNumber);
       made.number_digits = block.number_digits;
+      made.flags = static_cast<std::uint8_t>(made.flags | (block.flags & Block::kMainBlock));
       editor_->InsertBefore(id, made);
     } else {
       editor_->InsertAfter(id, made);
@@ -427,9 +430,10 @@ void DimensionPass::Through(BlockId id, Slots& slots, bool emit) {
                    (left != 0 && StepOf(id, slot) != Step::kNone && ReadsCells(value.form));
     for (const WordId word_id : block.words) {
       const Word& word = module_.words[word_id];
-      if (word.op == WordOp::kAssign) changes = changes || ReadsPlace(value.form, word.Extra<ExprId>());
-      if (word.op == WordOp::kFor)
-        changes = changes || ReadsPlace(value.form, module_.fors[word.Extra<ForId>()].variable);
+      const bool list = word.op == WordOp::kAssignList;
+      const auto writes = [&](ExprId place) { changes = changes || ReadsPlace(value.form, place, list); };
+      VisitPlaces(module_, word, writes);
+      VisitReferences(module_, word, writes);
     }
     // The counter of FOR changes at its ENDFOR too.
     if (Has(module_, block, WordOp::kEndFor) && block.link.Valid()) {

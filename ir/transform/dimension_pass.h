@@ -165,7 +165,7 @@ class DimensionPass {
   void RewriteMachineWords(BlockId block);
   void DropModeWords();
   void Unknown(BlockId block, const Word& word, std::uint8_t axis);
-  [[nodiscard]] bool ReadsPlace(const LinearForm& form, ExprId place) const;
+  [[nodiscard]] bool ReadsPlace(const LinearForm& form, ExprId place, bool whole = false) const;
   [[nodiscard]] bool ReadsShared(const LinearForm& form) const;
   [[nodiscard]] const Word* WordFor(BlockId block, std::uint8_t axis) const;
   [[nodiscard]] const Word* WordOf(BlockId block, WordOp op) const;

@@ -1,7 +1,7 @@
 #include "ir/transform/word_exprs.h"
 
 #include "ir/transform/linear_form.h"
-#include "ir/transform/word_values.h"
+#include "ir/word_values.h"
 
 namespace ncport::ir::transform {
 

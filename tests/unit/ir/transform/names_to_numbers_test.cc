@@ -173,7 +173,7 @@ TEST_CASE("by reference means copied in before the call and out behind it") {
         "N10 assign #[100] = #[10]\n"
         "assign #[101] = #[1]\n"
         "assign #[102] = #[2]\n"
-        "call name SUB calls SUB\n"
+        "call name SUB same-level calls SUB\n"
         "assign #[10] = #[100]\n"
         "assign #[1] = #[101]\n"
         "assign #[2] = #[102]\n"

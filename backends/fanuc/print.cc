@@ -305,9 +305,18 @@ void Printer::PrintWord(const Word& word, const Block& block) {
     case WordOp::kWorkOffset:
       if (word.value.Valid()) return Template(*profile_.words.work_offset_extended, word.value);
       return PrintCode(word);
-    case WordOp::kFrame:
+    case WordOp::kFrame: {
+      using dialects::fanuc::Special;
+      const auto op = static_cast<ir::FrameOp>(word.index);
       Blank();
-      return out_.Append(dialects::fanuc::TextOf(system_, dialects::fanuc::Special::kLocalShift));
+      return out_.Append(dialects::fanuc::TextOf(system_, op == ir::FrameOp::kRotateAbout ? Special::kRotationOn
+                                                          : op == ir::FrameOp::kRotateEnd ? Special::kRotationOff
+                                                                                          : Special::kLocalShift));
+    }
+    case WordOp::kFrameAngle:
+      Blank();
+      out_.Append("R");
+      return exprs_.WordValue(word.value, NumberPlace::kWord);
     case WordOp::kFileMark:
     case WordOp::kInert:
       Blank();

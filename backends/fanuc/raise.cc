@@ -19,6 +19,7 @@
 #include "backends/fanuc/mill_tools.h"
 #include "backends/fanuc/modal_calls.h"
 #include "backends/fanuc/raise_words.h"
+#include "backends/fanuc/rotations.h"
 #include "backends/fanuc/shifts.h"
 #include "backends/fanuc/source_meanings.h"
 #include "backends/fanuc/thread_leads.h"
@@ -255,7 +256,8 @@ bool CheckLegal(const RaiseInput& input, Translation& out, diag::Sink& sink) {
           case WordOp::kProgramEnd:
             need(profile.words.end, word);
             break;
-          case WordOp::kFrame:  // G52; all others were refused
+          case WordOp::kFrame:  // G52, G68, G69; all others were refused
+          case WordOp::kFrameAngle:
             break;
           case WordOp::kReturn:
             need(profile.words.sub_end, word);
@@ -409,9 +411,11 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   NameMotions(input, out);
   ok = ArrangeSpindle(input, out, sink) && ok;
   ok = (profile.IsLathe() ? MapTools(input, out, sink) : MapMillTools(input, out, sink)) && ok;
-  const bool worked_in = FramesAreWorkedIn(input, out);
+  const bool native = RotationsAreNative(input, out);
+  const bool worked_in = !native && FramesAreWorkedIn(input, out);
   FramesToComments(out, worked_in);
-  if (!worked_in) ok = ShiftsToLocal(input, out, sink) && ok;
+  if (native) RotationsToNative(input, out);
+  if (!native && !worked_in) ok = ShiftsToLocal(input, out, sink) && ok;
   ok = MapAlarms(input, out, sink) && ok;
   AbsoluteDimensionsConfig dimensions;
   dimensions.diameter_axis = profile.diameter.Is(dialects::DiameterRule::kYes) ? 0 : 0xFF;

@@ -40,11 +40,13 @@ class Pass {
   [[nodiscard]] static bool IsText(const Block& block) {
     return block.words.Empty() && !block.label.Valid() && block.number == Block::kNoNumber && block.flags == 0;
   }
-  void Refuse(const Block& block, std::string_view what) {
+  void Refuse(const Block& block, std::string_view what,
+              std::string_view help =
+                  "take the tool change out of the program, so that the main program calls the parts "
+                  "before and behind it") {
     ok_ = false;
     sink_.Report(diag::Code::kNotExpressible, module_.RangeOf(block), what, "a machine whose macros call no tools")
-        .help =
-        "take the tool change out of the program, so that the main program calls the parts before and behind it";
+        .help = help;
   }
   bool OnStraightPath(ProgramId program, BlockId at);
   bool PartsAreIndependent(ProgramId program, BlockId at, const Block& block, const std::set<std::uint32_t>& needed);
@@ -388,6 +390,7 @@ void Pass::Split(ProgramId program, BlockId at) {
   BuildStructure(module_, part_id, 0, quiet);
 
   // Callers: first part, the tool words, second part.
+  bool called = false;
   for (const ProgramId caller : module_.programs.Ids()) {
     ProgramEditor calls(module_, caller, "split_at_tool_change");
     for (const BlockId id : module_.programs[caller].blocks) {
@@ -399,6 +402,7 @@ void Pass::Split(ProgramId program, BlockId at) {
           Refuse(tool, "a tool change in a program that is called modally");
         }
         if (word.op != WordOp::kCall || module_.calls[word.Extra<CallId>()].program != program) continue;
+        called = true;
         const Call call = module_.calls[word.Extra<CallId>()];
         if (call.passes.Valid()) {
           Refuse(tool, "a tool change in a program that is called with a number of passes");
@@ -432,6 +436,11 @@ void Pass::Split(ProgramId program, BlockId at) {
       }
     }
     calls.Apply();
+  }
+  // The tool words would stand nowhere.
+  if (!called && ok_) {
+    Refuse(tool, "a tool change in a program that nothing here calls",
+           "translate it together with the programs that call it: the tool change moves to them");
   }
   if (first_cut) {
     result_.programs.push_back({program, {program, part_id}});

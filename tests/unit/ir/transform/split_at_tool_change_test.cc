@@ -334,6 +334,12 @@ TEST_CASE("passes and modal calls have no place for the tool words: refused") {
           "program M main @m:0\n  @m:1 : modal-call name SUB calls SUB\n  @m:2 : program-end #30\n");
 }
 
+TEST_CASE("a program that nothing calls has no place for its tool words: refused") {
+  const Split split = Run("program SUB sub @m:10\n  @m:11 : axis X = 1\n  @m:12 : tool = 2\n  @m:13 : axis X = 2\n");
+  CHECK(split.findings == "NC6001");
+  CHECK(split.messages.find("nothing here calls") != std::string::npos);
+}
+
 TEST_CASE("tool words that read the program's own variables mean nothing in its caller: refused") {
   Refused("  @m:11 : axis X = 1\n  @m:12 : tool = variable A\n  @m:13 : axis X = 2\n", "tool");
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <optional>
@@ -121,7 +122,9 @@ void Binder::Parameters(ir::ProgramId callee, std::vector<prove::BoundInput>& in
       for (const ir::ArgId arg : source_.calls[id].args) {
         const ir::Arg& given = source_.args[arg];
         if (given.position != i || !given.value.Valid()) continue;
-        if (const auto value = ConstantOf(source_, given.value)) bound.input.seen.push_back(*value);
+        // The call rounds what a whole parameter gets; a set stands for what arrives.
+        if (const auto value = ConstantOf(source_, given.value))
+          bound.input.seen.push_back(bound.input.integer ? std::round(*value) : *value);
       }
     }
     prove::InputPlace place;

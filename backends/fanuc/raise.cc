@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "backends/fanuc/array_bounds.h"
 #include "backends/fanuc/corners.h"
 #include "backends/fanuc/dwells.h"
 #include "backends/fanuc/frame_blocks.h"
@@ -382,7 +383,8 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   // Another Fanuc control's X100 is 0.1 mm: the value, since here every number gets its point.
   const bool in_units = ResolveIncrements(module, machine, entry, sink);
   SpecializePrograms(module, machine, entry);
-  const bool modal = MapModalCalls(input, module, sink);
+  bool forms = MapModalCalls(input, module, sink);
+  forms = RefuseOpenIndices(input, module, sink) && forms;
   {
     const ir::analysis::FlowGraphs graphs(module);
     const ir::analysis::CallGraph calls(module);
@@ -394,7 +396,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   EndsToReturns(input, module);
   PiToNumber(module);
   if (!ShiftSkipLevels(input, module, sink)) return false;
-  bool ok = RefuseInputs(input, out, sink) && in_units && modal;
+  bool ok = RefuseInputs(input, out, sink) && in_units && forms;
   ok = RefuseRepeatedCalls(input, module, sink) && ok;
   ok = SaveToRestores(module, machine, entry, sink) && ok;
   for (const ir::ProgramId program : module.programs.Ids()) SplitStatements(module, program);

@@ -662,7 +662,10 @@ void Allocation::LowerCalls(ProgramId program) {
           continue;
         }
         const std::uint32_t key = actual->op == ExprOp::kVariable ? actual->a : actual->b | 0x80000000U;
-        const bool shared = actual->op == ExprOp::kCell;
+        // Copied in and out: nothing that the callee reaches another way, and no value that changes its type.
+        const bool own = actual->op == ExprOp::kVariable && module_.variables[VariableId{actual->a}].owner == program;
+        const bool shared = !own || seen_elsewhere_.contains(actual->a) ||
+                            module_.variables[VariableId{actual->a}].type != parameter.type;
         if (!references.insert(key).second || shared) {
           Refuse(module_.RangeOf(block, word),
                  fmt::format("argument {} by reference to what the callee may reach another way",

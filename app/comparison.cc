@@ -133,6 +133,7 @@ prove::Verification CompareTranslation(Context& context, const ProgramSet& sourc
   if (!setup.vary_inputs) options.runs = options.least_runs = 1;
   options.max_blocks = setup.max_blocks;
   options.poison_distance = !target.words.absolute.Or("").empty();
+  options.compare.tolerance = setup.tolerance;
   options.compare.source = PrecisionOf(source.profile, source_machine);
   options.compare.target = PrecisionOf(target, target_machine);
   options.compare.maps = MapsOf(source.module, translation);

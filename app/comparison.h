@@ -15,7 +15,8 @@ struct ComparisonSetup {
   std::uint32_t runs = 200;
   std::uint64_t seed = 1;
   std::uint64_t max_blocks = 10'000'000;
-  bool vary_inputs = true;  // false: one set: arguments as written, cells that nothing wrote 0
+  double tolerance = 0.0001;  // mm, degrees: on top of the words' errors (contracts section 6)
+  bool vary_inputs = true;    // false: one set: arguments as written, cells that nothing wrote 0
 };
 
 /// `run` names the entry; arguments in it are values seen. Findings of reading the output back are bugs of the writer

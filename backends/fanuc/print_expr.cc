@@ -72,10 +72,11 @@ bool TwoArguments(const Expr& expr) {
 /// Is the operand of an operation put in brackets? `right`: it stands behind the operator.
 bool NeedsBrackets(const ir::Module& module, ExprId operand, ExprOp parent, bool right) {
   const Expr& expr = module.exprs[Bare(module, operand)];
-  if (expr.op == ExprOp::kLiteral) return expr.number < 0;  // two signs in a row are doubtful (fanuc-4.1)
-  if (TwoArguments(expr)) return true;                      // ATAN[a]/[b]: a quotient would run on
-  if (IsLogic(expr.op) || (IsLogic(parent) && LevelOf(expr.op) < kSign)) return true;
   const int inner = LevelOf(expr.op), outer = LevelOf(parent);
+  // Two signs in a row are doubtful (fanuc-4.1); a number below zero prints as a sign and a number does.
+  if (expr.op == ExprOp::kLiteral) return expr.number < 0 && (right || outer > kSum);
+  if (TwoArguments(expr)) return true;  // ATAN[a]/[b]: a quotient would run on
+  if (IsLogic(expr.op) || (IsLogic(parent) && LevelOf(expr.op) < kSign)) return true;
   if (expr.op == ExprOp::kNegate) return right || outer > kSum;
   return right ? inner <= outer : inner < outer;
 }

@@ -104,6 +104,7 @@ const FunctionRow* FindFunction(std::string_view word, bool one_bracket) {
 
 const FunctionRow* FindFunction(ir::Function function) {
   if (function == Fn::kAtan2) function = Fn::kAtan2Positive;
+  if (function == Fn::kAsinPositive) function = Fn::kAsin;  // 6004#0 NAT: the text is the same
   return FindRow(kFunctions, [&](const FunctionRow& row) { return row.function == function; });
 }
 

@@ -157,7 +157,7 @@ struct FunctionRow {
 std::span<const FunctionRow> Functions();
 /// Function written by `word` (its shortest form or more of it, upper case) with one bracket or more, or null.
 const FunctionRow* FindFunction(std::string_view word, bool one_bracket);
-/// Row to print, or null. ATAN with two brackets prints for both of its ranges.
+/// Row to print, or null. ASIN, and ATAN with two brackets, print for both of their ranges.
 const FunctionRow* FindFunction(ir::Function function);
 
 struct OperatorRow {

@@ -15,6 +15,9 @@ Finding CheckText(const Subject& subject, const Direction& direction);
 /// Translates the program and compares both programs, as `ncport translate --verify` does.
 Finding CheckTranslation(const Subject& subject, const Direction& direction);
 
+/// Translates the program, and its translation back; the second way is compared as the first one.
+Finding CheckTranslationBack(const Subject& subject, const Direction& direction);
+
 /// Flattens each run, reads the flat blocks back and compares what both do.
 Finding CheckFlat(const Subject& subject, const Direction& direction);
 

@@ -1,7 +1,8 @@
-// The program as text of its own language: printed, read back, run, printed again.
+// The program as text of its own language, SINUMERIK or FANUC: printed, read back, run, printed again.
 #include <string>
 #include <vector>
 
+#include "app/bind_inputs.h"
 #include "ir/verify.h"
 #include "tests/random/direction_checks.h"
 #include "tests/random/runs.h"
@@ -9,10 +10,10 @@
 
 namespace ncport::tests::random {
 
-namespace {}  // namespace
-
 Finding CheckText(const Subject& subject, const Direction& /*direction*/) {
   const ir::Module& module = *subject.module;
+  if (const auto violation = ir::FindViolation(module, {.names_resolved = true, .structure_built = true}))
+    return {Verdict::kFails, "verify", *violation, {}};
   const std::vector<TextFile> texts = PrintAll(module, *subject.profile);
 
   SourceFiles files;
@@ -33,7 +34,7 @@ Finding CheckText(const Subject& subject, const Direction& /*direction*/) {
 
   Subject other = subject;
   other.module = &read;
-  other.main = read.FindProgram(module.View(module.programs[subject.main].name), true);
+  other.main = app::FindByName(read, module.View(module.programs[subject.main].name));
   if (!other.main.Valid()) return {Verdict::kFails, "main program lost", "no program of that name", Listing(texts)};
   const SkipSets skips = SkipSetsOf(module);
   for (std::uint32_t i = 0; i < skips.count; ++i) {

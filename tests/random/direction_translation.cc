@@ -1,65 +1,61 @@
-// Translations: raised, printed, read back and compared over both programs.
-#include <fmt/format.h>
-
+// Translations: raised, printed, read back and compared over both programs; and the output of one translated once more,
+// back to the language that it came from.
 #include <string>
 #include <vector>
 
-#include "app/comparison.h"
-#include "backends/translate.h"
 #include "tests/random/direction_checks.h"
-#include "tests/random/refusals.h"
-#include "tests/random/runs.h"
+#include "tests/random/port.h"
+#include "tests/random/shop.h"
 #include "tests/random/texts.h"
 
 namespace ncport::tests::random {
 
-namespace {
-
-std::string ListingOf(const std::vector<backends::OutputFile>& files) {
-  std::string all;
-  for (const backends::OutputFile& file : files) all += fmt::format("--- {}\n{}", file.name, file.text);
-  return all;
+Finding CheckTranslation(const Subject& subject, const Direction& /*direction*/) {
+  const ir::Module& module = *subject.module;
+  Port port;
+  port.target = subject.target;
+  port.config = subject.config;
+  if (Finding finding = ReadSource(port, PrintCalled(module, subject.main, *subject.profile), *subject.profile,
+                                   module.View(module.programs[subject.main].name));
+      finding.verdict != Verdict::kAgrees)
+    return finding;
+  if (Finding finding = Translate(port); finding.verdict != Verdict::kAgrees) return finding;
+  return Compare(port, subject.max_blocks * 4);
 }
 
-}  // namespace
-
-Finding CheckTranslation(const Subject& subject, const Direction& /*direction*/) {
-  const std::vector<TextFile> texts = PrintCalled(*subject.module, subject.main, *subject.profile);
-  Context context;
-  app::ProgramSet set;
-  set.profile = *subject.profile;
-  if (!ReadAll(texts, set.profile, context.files, set.module, context.findings))
-    return {Verdict::kFails, "read the source, " + FirstError(context.findings), TextOf(context.findings),
-            Listing(texts)};
-  const ir::ProgramId entry =
-      set.module.FindProgram(subject.module->View(subject.module->programs[subject.main].name), true);
-  if (!entry.Valid()) return {Verdict::kFails, "main program lost", "no program of that name", Listing(texts)};
-
-  backends::Translation translation;
-  if (!backends::Raise({&set.module, &set.profile, subject.machine, subject.target, subject.config}, translation,
-                       context.findings)) {
-    return {Verdict::kRefused, ReasonOf(context.findings), TextOf(context.findings), Listing(texts)};
+Finding CheckTranslationBack(const Subject& subject, const Direction& /*direction*/) {
+  const ir::Module& module = *subject.module;
+  Port there;
+  there.target = subject.target;
+  there.config = subject.config;
+  if (Finding finding = ReadSource(there, PrintCalled(module, subject.main, *subject.profile), *subject.profile,
+                                   module.View(module.programs[subject.main].name));
+      finding.verdict != Verdict::kAgrees)
+    return finding;
+  // What has no form there is counted by the direction that goes there.
+  if (Translate(there).verdict != Verdict::kAgrees) return {Verdict::kNoProgram, {}, {}, {}};
+  std::string main;
+  for (const backends::ProgramName& name : there.translation.programs) {
+    if (name.main) main = name.target;
   }
-  const std::vector<backends::OutputFile> files = backends::Print(*subject.target, translation, {});
-  // Values of arguments stay as written: what they may be is known to the generator alone.
-  app::ComparisonSetup setup;
-  setup.max_blocks = subject.max_blocks * 4;
-  setup.vary_inputs = false;
-  exec::RunOptions run;
-  run.entry = entry;
-  std::vector<prove::Input> varied;
-  const prove::Verification verification = app::CompareTranslation(context, set, *subject.machine, run, *subject.target,
-                                                                   translation, files, subject.config, setup, varied);
-  const auto artefact = [&] { return Listing(texts) + ListingOf(files); };
-  if (verification.difference) {
-    return {Verdict::kFails, "compare, " + KindOfText(verification.difference->what),
-            fmt::format("{} ({})", verification.difference->what, verification.difference_start), artefact()};
+  std::vector<TextFile> texts;
+  for (const backends::OutputFile& file : there.files)
+    texts.push_back({file.name.empty() ? "programs.nc" : file.name, file.text});
+
+  const dialects::Config config = ShopDataBack(*subject.target);
+  Port back;
+  back.target = subject.profile;
+  back.config = &config;
+  if (Finding finding = ReadSource(back, std::move(texts), backends::ForReading(*subject.target), main);
+      finding.verdict != Verdict::kAgrees)
+    return finding;
+  if (Finding finding = Translate(back); finding.verdict != Verdict::kAgrees) {
+    finding.artefact = Listing(there.texts) + finding.artefact;
+    return finding;
   }
-  // Branches that no run took are no fault here: the next program takes others.
-  if (verification.sets_run == 0 || (verification.open_branches.empty() && !verification.compared))
-    return {Verdict::kFails, "not compared, " + KindOfText(verification.not_compared),
-            verification.not_compared + "\n" + TextOf(context.findings), artefact()};
-  return {};
+  Finding finding = Compare(back, subject.max_blocks * 16);
+  if (!finding.artefact.empty()) finding.artefact = Listing(there.texts) + finding.artefact;
+  return finding;
 }
 
 }  // namespace ncport::tests::random

@@ -18,7 +18,16 @@ namespace {
 // clang-format on
 constexpr std::string_view kWithTools = NCPORT_NO_FANUC ",plane=0,frame=0";
 constexpr std::string_view kWithoutTools = NCPORT_NO_FANUC ",tool=0,cutter-comp=0";
+// What has no way back: what a computed number or a unit stands for must be known there.
+#define NCPORT_NO_WAY_BACK                                                                              \
+  ",units=0,bit-operations=0,integer-division=0,computed-index=0,skip-level=0,surface-speed=0,frame=0," \
+  "feed-mode=0,thread=0,tangle=0,case=0,plain-jump=0,loop=0,alarm=0,backward-jump=0"
+constexpr std::string_view kBackWithTools = NCPORT_NO_FANUC ",plane=0" NCPORT_NO_WAY_BACK;
+constexpr std::string_view kBackWithoutTools = NCPORT_NO_FANUC ",tool=0,cutter-comp=0" NCPORT_NO_WAY_BACK;
+#undef NCPORT_NO_WAY_BACK
 #undef NCPORT_NO_FANUC
+constexpr std::string_view kGenerated =
+    "units=0,computed-index=0,skip-level=0,surface-speed=0,feed-mode=0,cutter-comp=0,modal-call=0,passes=0";
 // What literal blocks have no word for.
 constexpr std::string_view kNotFlat =
     "tap=0,machine-coords=0,reference=0,spindle-position=0,aux-h=0,thread-variable=0,thread-start=0,"
@@ -55,6 +64,30 @@ constexpr Direction kDirections[] = {
      .target_mill = "mazak-mill",
      .target_lathe = "mazak-qtn",
      .without = {kWithTools, kWithoutTools}},
+    {.name = "fanuc",
+     .title = "FANUC text: printed, read back, run",
+     .flavour = Flavour::kFanuc,
+     .mill = "fanuc-mill",
+     .lathe = "fanuc-lathe-a",
+     .check = CheckText},
+    {.name = "fanuc-to-sinumerik",
+     .title = "FANUC to SINUMERIK, compared by running both",
+     .flavour = Flavour::kFanuc,
+     .mill = "fanuc-mill",
+     .lathe = "fanuc-lathe-a",
+     .check = CheckTranslation,
+     .target_mill = "sinumerik-840d-mill",
+     .target_lathe = "sinumerik-840d-lathe",
+     .without = {kGenerated, kGenerated}},
+    {.name = "fanuc-and-back",
+     .title = "the FANUC program that a SINUMERIK one became, to SINUMERIK, compared by running both",
+     .flavour = Flavour::kSinumerik,
+     .mill = "sinumerik-840d-mill",
+     .lathe = "sinumerik-840d-lathe",
+     .check = CheckTranslationBack,
+     .target_mill = "fanuc-mill",
+     .target_lathe = "fanuc-lathe-a",
+     .without = {kBackWithTools, kBackWithoutTools}},
     {.name = "flat",
      .title = "SINUMERIK flattened: the flat blocks read back and run",
      .flavour = Flavour::kSinumerik,

@@ -30,10 +30,12 @@ struct Knowledge {
   bool feed = false;     // a feed of the mode in force was written
   Turned turned = Turned::kUnknown;
   bool frame_clear = false;  // no programmable frame at all
+  std::uint32_t fixed = 0;   // groups that no word of the language changes, or none here: always known
   std::uint16_t placed = 0;  // bit per axis whose position follows from words of this program on every way here
 
   /// Forgets the groups in `mask`.
   void Forget(std::uint32_t mask) {
+    mask &= ~fixed;
     if ((mask & kMotionGroup) != 0) modes.motion = ir::Motion::kUnknown;
     if ((mask & kPlaneGroup) != 0) modes.plane = ir::Plane::kUnknown;
     if ((mask & kDistanceGroup) != 0) modes.distance = ir::Distance::kUnknown;
@@ -72,6 +74,7 @@ struct Knowledge {
   /// What is known where two ways meet.
   void Join(const Knowledge& other) {
     Forget(Differences(other));
+    feed = feed && other.feed;
     placed &= other.placed;
   }
 };

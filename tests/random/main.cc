@@ -117,8 +117,8 @@ int RunAll(const Arguments& arguments) {
     if (!wanted) continue;
     Prepared next;
     next.direction = &direction;
-    next.profiles[0] = dialects::BuiltIn(direction.mill);
-    next.profiles[1] = dialects::BuiltIn(direction.lathe);
+    next.profiles[0] = AnsweredProfile(direction.mill);
+    next.profiles[1] = AnsweredProfile(direction.lathe);
     for (int i = 0; i < 2; ++i) {
       next.machines[i] = dialects::MachineFor(next.profiles[i]);
       const std::string_view target = i == 0 ? direction.target_mill : direction.target_lathe;

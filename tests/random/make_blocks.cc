@@ -1,6 +1,7 @@
 // Blocks, labels, numbers, comments.
 #include <fmt/format.h>
 
+#include "dialects/fanuc/words.h"
 #include "dialects/sinumerik/words.h"
 #include "tests/random/maker.h"
 
@@ -60,8 +61,10 @@ void Maker::Emit(ir::BlockBuilder& block, bool may_skip) {
 // A word of a code table: phase and flags are those of the language.
 void Maker::Code(ir::BlockBuilder& block, ir::WordOp op, std::uint8_t index, std::uint32_t extra) {
   block.Add(op, {}, index, extra);
-  const dialects::CodeRow* const row =
-      IsSinumerik() ? dialects::sinumerik::Codes().FindMeaning(op, index, extra) : nullptr;
+  const dialects::CodeTable& codes = IsSinumerik()
+                                         ? dialects::sinumerik::Codes()
+                                         : dialects::fanuc::Codes(*dialects::fanuc::SystemOf(*options_.profile));
+  const dialects::CodeRow* const row = codes.FindMeaning(op, index, extra);
   if (row == nullptr) return;
   block.Last().phase = row->phase;
   block.Last().flags |= row->flags;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "dialects/fanuc/words.h"
 #include "tests/random/maker.h"
 
 namespace ncport::tests::random {
@@ -11,7 +12,7 @@ using ir::ExprId;
 using ir::Type;
 
 void Maker::MakeFormals(Subprogram& sub) {
-  if (!IsSinumerik()) return;
+  if (!IsSinumerik()) return MakeLetters(sub);
   struct Kind {
     Range range;
     Type type;
@@ -46,9 +47,45 @@ void Maker::MakeFormals(Subprogram& sub) {
   }
 }
 
+// Arguments of G65: each letter fills a cell of the macro's level (fanuc-7.3).
+void Maker::MakeLetters(Subprogram& sub) {
+  if (!sub.has_level) return;
+  static constexpr std::string_view kLetters = "ABCDEHQRUVWXYZ";
+  static constexpr Range kKinds[] = {Range::kLength, Range::kLength, Range::kPositive, Range::kWhole,
+                                     Range::kAngle,  Range::kTruth,  Range::kFeed};
+  const std::uint32_t count = random_.Below(5);
+  std::uint32_t next = 0;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    next += 1 + random_.Below(2);
+    Formal formal;
+    formal.letter = kLetters[next];
+    formal.place.space = local_space_;
+    formal.place.first = dialects::fanuc::ArgumentCell(formal.letter);
+    formal.place.type = module_.spaces[local_space_].type;
+    formal.place.range = random_.Pick(kKinds);
+    formal.may_miss = Draw(Feature::kMissingArgument);
+    places_.push_back(formal.place);
+    sub.formals.push_back(formal);
+  }
+}
+
+// IF[#1EQ#0]THEN#1=5.: the value of an argument that a call leaves out.
+void Maker::WriteMissing(const Subprogram& sub) {
+  for (const Formal& formal : sub.formals) {
+    if (formal.letter == 0 || !formal.may_miss) continue;
+    const ExprId cell = expr_.Cell(formal.place.space, formal.place.first);
+    ir::BlockBuilder block = NewBlock();
+    Word(block, ir::WordOp::kWhen, expr_.Binary(ir::ExprOp::kEqual, cell, expr_.Vacant()));
+    block.Assign(expr_.Cell(formal.place.space, formal.place.first), Literal(BoundsOf(formal.place.range)).id);
+    Emit(block);
+  }
+}
+
 void Maker::WriteHeader(const Subprogram& sub) {
   ir::Program& program = module_.programs[sub.id];
   program.saves_modal_state = sub.saves;
+  program.has_header = false;
+  if (!IsSinumerik()) return;
   program.has_header = !sub.formals.empty() || sub.saves || !IsSinumerik() || random_.Percent(50);
   if (!program.has_header) return;
   ir::BlockBuilder block = program_->Block();
@@ -115,7 +152,8 @@ void Maker::AddArguments(const Subprogram& sub, ir::Call& call) {
   for (std::size_t i = 0; i < sub.formals.size(); ++i) {
     const Formal& formal = sub.formals[i];
     ir::Arg arg;
-    arg.position = static_cast<std::uint16_t>(i);
+    arg.position = static_cast<std::uint16_t>(formal.letter == 0 ? i : formal.place.first);
+    arg.letter = formal.letter;
     if (formal.by_reference) {
       std::vector<const Place*> fitting;
       for (const Place& place : places_) {
@@ -132,7 +170,7 @@ void Maker::AddArguments(const Subprogram& sub, ir::Call& call) {
         arg.value = ValueFor(formal.place.range, formal.place.type, 1);
       }
     }
-    args.push_back(arg);
+    if (formal.letter == 0 || arg.value.Valid()) args.push_back(arg);
   }
   // Empty places at the end may be left out.
   while (!args.empty() && !args.back().value.Valid() && random_.Percent(70)) args.pop_back();
@@ -206,6 +244,7 @@ void Maker::MakeCall() {
   call.name = module_.strings.Intern(sub.name);
   call.program = sub.id;
   AddArguments(sub, call);
+  if (!sub.has_level) call.new_level = random_.Percent(40);
   if (sub.formals.empty() && Draw(Feature::kCallByText)) {
     call.form = ir::CallForm::kText;
     call.has_brackets = false;

@@ -12,9 +12,9 @@ using ir::ExprOp;
 using ir::Type;
 using ir::WordOp;
 
-void Maker::EmitMark(WordOp op, ExprId value) {
+void Maker::EmitMark(WordOp op, ExprId value, std::uint8_t number) {
   ir::BlockBuilder block = NewMark();
-  Word(block, op, value);
+  Word(block, op, value, number);
   Emit(block);
 }
 
@@ -129,20 +129,22 @@ void Maker::MakeWhile() {
   const std::uint32_t turns = Turns();
   SetCounter(place, 0);
   ++while_depth_;
+  // DO1 to DO3; SINUMERIK loops have no number.
+  const auto number = static_cast<std::uint8_t>(IsSinumerik() ? 0 : while_depth_);
   Loop(turns, [&] {
-    EmitMark(WordOp::kWhile, CounterBelow(place, turns));
+    EmitMark(WordOp::kWhile, CounterBelow(place, turns), number);
     if (random_.Percent(30))
       StepCounter(place);
     else {
       Statements(1 + random_.Below(3));
       StepCounter(place);
       CloseTurn();
-      EmitMark(WordOp::kEndWhile);
+      EmitMark(WordOp::kEndWhile, {}, number);
       return;
     }
     Statements(1 + random_.Below(3));
     CloseTurn();
-    EmitMark(WordOp::kEndWhile);
+    EmitMark(WordOp::kEndWhile, {}, number);
   });
   --while_depth_;
   Busy(place, false);
@@ -279,7 +281,7 @@ void Maker::MakeForwardJump() {
   for (Pending& other : frames_[frame].pending) {
     if (random_.Percent(40)) target = &other;
   }
-  const ExprId condition = random_.Percent(85) ? Truth(2) : ExprId{};
+  const ExprId condition = Draw(Feature::kPlainJump) ? ExprId{} : Truth(2);
   if (target != nullptr) {
     target->known.Join(known_);
   } else {

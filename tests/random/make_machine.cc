@@ -61,7 +61,7 @@ void Maker::MakeAux() {
 
 void Maker::AddAux(ir::BlockBuilder& block, std::uint32_t code) {
   // M9 acts behind the motion and has a row of its own.
-  Code(block, WordOp::kAux, 0, code == 9 && IsSinumerik() ? 9 : Id<void>::kNone);
+  Code(block, WordOp::kAux, 0, code == 9 ? 9 : Id<void>::kNone);
   block.Last().extra = Id<void>::kNone;
   block.Last().value = expr_.Number(fmt::format("{}", code), ir::Type::kInt);
   if (code != 9) block.Last().phase = ir::Phase::kBefore;
@@ -91,7 +91,8 @@ void Maker::MakeAlarm() {
   const std::uint32_t number = stops ? 65000 + random_.Below(100) : 67000 + random_.Below(100);
   const auto alarm = [&] {
     ir::BlockBuilder block = NewBlock();
-    const ir::ExprId text = random_.Percent(50) ? expr_.Text("CHECK PART") : ir::ExprId{};
+    // A comment behind #3000 would be its text.
+    const ir::ExprId text = random_.Percent(50) || !IsSinumerik() ? expr_.Text("CHECK PART") : ir::ExprId{};
     Word(block, WordOp::kAlarm,
          expr_.Number(fmt::format("{}", IsSinumerik() ? number : random_.Below(200)), ir::Type::kInt),
          static_cast<std::uint8_t>(stops ? ir::AlarmKind::kStops : ir::AlarmKind::kShows), text.value);

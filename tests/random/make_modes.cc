@@ -76,7 +76,7 @@ void Maker::NeedUnits(ir::BlockBuilder& block) {
 
 // The transverse axis means something only under a known diameter mode.
 void Maker::NeedDiameter(ir::BlockBuilder& block) {
-  if (TransverseAxis() != 0xFF && known_.modes.diameter == ir::Diameter::kUnknown)
+  if (IsSinumerik() && TransverseAxis() != 0xFF && known_.modes.diameter == ir::Diameter::kUnknown)
     SetDiameter(block, initial_.modes.diameter);
 }
 
@@ -112,6 +112,7 @@ void Maker::MakePlane() {
 }
 
 void Maker::MakeDistance() {
+  if (!IsSinumerik()) return MakeSteps();
   if (!MayChange(kDistanceGroup)) return MakeLinear();
   ir::BlockBuilder block = NewBlock();
   SetDistance(block, random_.Percent(50) ? ir::Distance::kAbsolute : ir::Distance::kIncremental);
@@ -157,7 +158,7 @@ void Maker::MakeSurfaceSpeed() {
   Word(block, WordOp::kSpeed, NumberIn({50, 300, !Draw(Feature::kFractionalSpeed)}, 1).id);
   Touch(kFeedGroup);
   known_.modes.speed_mode = ir::SpeedMode::kConstantSurface;
-  known_.modes.feed_mode = ir::FeedMode::kPerRevolution;
+  known_.modes.feed_mode = IsSinumerik() ? ir::FeedMode::kPerRevolution : ir::FeedMode::kUnknown;
   known_.feed = false;
   AddFeed(block);
   Emit(block);

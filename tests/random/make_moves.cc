@@ -66,10 +66,15 @@ void Maker::AxisLiteral(ir::BlockBuilder& block, std::uint8_t axis, ValueMode mo
 // so.
 void Maker::AxisWord(ir::BlockBuilder& block, std::uint8_t axis, bool absolute, int depth) {
   const bool transverse = axis == TransverseAxis();
+  const bool transverse_machine = TransverseAxis() != 0xFF;
   const bool rotary = ir::IsRotary(axis);
   const double unit = rotary ? 1 : UnitFactor();
   double most = rotary ? 180 : AbsoluteLimit();
   absolute = absolute || !MayStep(axis);
+  // A mill has G91 for steps, a lathe of system A the letters U, W and H.
+  if (!IsSinumerik())
+    absolute = known_.modes.distance == ir::Distance::kAbsolute &&
+               (absolute || !transverse_machine || axis == 1 || axis == 3 || axis == 4);
   if (!absolute) {
     most = random_.Percent(50) ? 2 : 10;
     while (most > 0.1 && !MayDrift(axis, most * 2 * unit)) most *= 0.5;
@@ -130,7 +135,7 @@ void Maker::MakeLinear() {
   SetMotion(block, ir::Motion::kLinear);
   const bool absolute = known_.modes.distance != ir::Distance::kIncremental;
   for (const std::uint8_t axis : SomeAxes(true)) {
-    AxisWord(block, axis, Has(Feature::kValueModes) ? random_.Percent(60) : absolute, 3);
+    AxisWord(block, axis, Has(Feature::kValueModes) || !IsSinumerik() ? random_.Percent(60) : absolute, 3);
   }
   if (Has(Feature::kPathMode) && random_.Percent(5)) Code(block, WordOp::kExactOnce);
   if (known_.feed && known_.modes.feed_mode == ir::FeedMode::kPerMinute && Draw(Feature::kFeedOnce)) {

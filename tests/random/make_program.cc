@@ -19,6 +19,7 @@ constexpr CellRow kCells[] = {{Range::kLength, 1},    {Range::kPositive, 6}, {Ra
                               {Range::kFraction, 21}, {Range::kTruth, 26},   {Range::kFeed, 31}};
 constexpr std::uint32_t kCellsEach = 4;
 constexpr std::uint32_t kFirstCounterCell = 60;
+constexpr std::uint32_t kFirstLocalCell = 27;  // no argument reaches those behind it (fanuc-7.3)
 
 }  // namespace
 
@@ -53,6 +54,10 @@ void Maker::ChooseInitial() {
   modes.speed_mode = ir::SpeedMode::kRpm;
   if (lathe) modes.diameter = IsSinumerik() && random_.Percent(30) ? ir::Diameter::kRadius : ir::Diameter::kDiameter;
   initial_.feed = true;
+  // Lathes of system A have no word for the distance mode; on mills G91 is switched off again where it is switched on.
+  if (!IsSinumerik()) initial_.fixed = kDistanceGroup | kDiameterGroup;
+  if (!Has(Feature::kUnits)) initial_.fixed |= kUnitsGroup;
+  if (!Has(Feature::kSurfaceSpeed) && !Has(Feature::kFeedMode)) initial_.fixed |= kFeedGroup;
   initial_.turned = Turned::kNo;
   initial_.frame_clear = true;
 }
@@ -64,6 +69,7 @@ void Maker::MakeSpaces() {
     module_.spaces[id].lifetime = space.lifetime;
     module_.spaces[id].visibility = space.visibility;
     if (!cell_space_.Valid() && space.visibility == ir::Visibility::kAll) cell_space_ = id;
+    if (!local_space_.Valid() && space.visibility == ir::Visibility::kLevel) local_space_ = id;
   }
   pi_ = ir::AddSystem(module_, "$PI", ir::SystemKind::kPi);
   programmed_position_ = ir::AddSystem(module_, "$P_EP", ir::SystemKind::kProgrammedPosition);
@@ -110,6 +116,36 @@ Place Maker::AddLocal(Range range, Type type, bool array) {
   if (type == Type::kString) module_.variables[place.variable].string_length = 120;
   locals_.push_back(place);
   return place;
+}
+
+// Cells of the level: free ones of any class. They are empty at first, so that they are written before anything else.
+void Maker::MakeLocalCells(std::uint32_t count) {
+  static constexpr Range kKinds[] = {Range::kLength, Range::kLength, Range::kPositive, Range::kWhole,
+                                     Range::kAngle,  Range::kTruth,  Range::kFraction, Range::kFeed};
+  for (std::uint32_t i = 0; i < count; ++i) {
+    Place place;
+    place.space = local_space_;
+    place.type = module_.spaces[local_space_].type;
+    place.first = kFirstLocalCell + i;
+    place.range = random_.Pick(kKinds);
+    places_.push_back(place);
+    local_cells_.push_back(place);
+  }
+}
+
+// Counters: written by the frame of their loops alone.
+void Maker::MakeCounterCells(std::uint32_t count) {
+  for (std::uint32_t i = 0; i < count; ++i) {
+    Place counter;
+    counter.space = cell_space_;
+    counter.first = module_.spaces[cell_space_].first + kFirstCounterCell + next_counter_cell_++;
+    counter.type = module_.spaces[cell_space_].type;
+    counter.range = Range::kCount;
+    counter.writable = false;
+    // Read before a loop wrote it, it could hold anything.
+    counter_cells_.push_back(counter);
+    places_.push_back(counter);
+  }
 }
 
 void Maker::MakeLocals(std::uint32_t count) {
@@ -187,6 +223,14 @@ void Maker::WriteDefinitions() {
   }
 }
 
+void Maker::WriteLocalCells() {
+  for (const Place& place : local_cells_) {
+    ir::BlockBuilder block = NewBlock();
+    block.Assign(expr_.Cell(place.space, place.first), As(Literal(BoundsOf(place.range)), place.type));
+    Emit(block);
+  }
+}
+
 // Every cell that may be read gets a value of its class first.
 void Maker::WriteCellStarts() {
   const auto start = [&](ir::ExprId place, Type type, Range range) {
@@ -204,6 +248,7 @@ void Maker::WriteCellStarts() {
       }
     }
   }
+  WriteLocalCells();
   for (const Place& place : counter_cells_) start(expr_.Cell(place.space, place.first), place.type, place.range);
 }
 
@@ -247,13 +292,16 @@ Knowledge Maker::RandomEntry() {
 // What main programs write first: all groups that later blocks rely on.
 void Maker::WriteStart() {
   WriteCellStarts();
+  const std::uint32_t fixed = initial_.fixed;
+  known_ = initial_;
   known_.Forget(kAllGroups);
+  known_.fixed = fixed;
   ir::BlockBuilder modes = NewBlock();
   SetPlane(modes, initial_.modes.plane);
-  SetDistance(modes, initial_.modes.distance);
+  if (IsSinumerik() || TransverseAxis() == 0xFF) SetDistance(modes, initial_.modes.distance);
   SetUnits(modes, initial_.modes.units);
   SetFeedMode(modes, initial_.modes.feed_mode);
-  if (initial_.modes.diameter != ir::Diameter::kUnknown) SetDiameter(modes, initial_.modes.diameter);
+  if (IsSinumerik() && initial_.modes.diameter != ir::Diameter::kUnknown) SetDiameter(modes, initial_.modes.diameter);
   Code(modes, ir::WordOp::kCutterComp, static_cast<std::uint8_t>(ir::CutterComp::kOff));
   if (Has(Feature::kWorkOffset)) Code(modes, ir::WordOp::kWorkOffset, 0, 54);
   Emit(modes);
@@ -276,7 +324,13 @@ void Maker::MakeMain() {
   in_main_ = true;
   places_.clear();
   locals_.clear();
-  if (IsSinumerik()) MakeLocals(3 + random_.Below(6));
+  local_cells_.clear();
+  if (IsSinumerik()) {
+    MakeLocals(3 + random_.Below(6));
+  } else {
+    MakeLocalCells(2 + random_.Below(5));
+    MakeCounterCells(4);
+  }
   WriteDefinitions();
   WriteExterns();
   touched_ = frozen_ = 0;
@@ -289,6 +343,7 @@ void Maker::MakeMain() {
   Statements(options_.statements / 2 + random_.Below(options_.statements));
   WriteEnd(true);
   program.Finish();
+  if (!IsSinumerik()) FinishWords(program.Id());
   ir::BuildStructure(module_, program.Id(), 0, sink_);
   sample_.main = program.Id();
 }
@@ -301,11 +356,19 @@ void Maker::MakeSubprogram(std::uint32_t index) {
                              ir::AddFile(module_, sub.name + (IsSinumerik() ? ".spf" : ".nc")));
   program_ = &program;
   sub.id = program.Id();
+  // M98 shares the cells of the caller: such a program keeps away from them.
+  sub.has_level = IsSinumerik() || random_.Percent(70);
   in_main_ = false;
   places_.clear();
   locals_.clear();
   MakeFormals(sub);
-  if (IsSinumerik()) MakeLocals(1 + random_.Below(4));
+  local_cells_.clear();
+  if (IsSinumerik()) {
+    MakeLocals(1 + random_.Below(4));
+  } else {
+    if (sub.has_level) MakeLocalCells(random_.Below(4));
+    MakeCounterCells(2);
+  }
   sub.saves = Draw(Feature::kSaveModes);
   WriteHeader(sub);
   WriteDefinitions();
@@ -313,6 +376,8 @@ void Maker::MakeSubprogram(std::uint32_t index) {
   sub.entry = RandomEntry();
   known_ = sub.entry;
   known_.placed = 0;
+  WriteLocalCells();
+  WriteMissing(sub);
   moved_ = turn_axes_ = 0;
   touched_ = frozen_ = 0;
   cost_ = 0;
@@ -325,6 +390,7 @@ void Maker::MakeSubprogram(std::uint32_t index) {
   Statements(2 + random_.Below(options_.statements / 2));
   WriteEnd(false);
   program.Finish();
+  if (!IsSinumerik()) FinishWords(sub.id);
   ir::BuildStructure(module_, sub.id, 0, sink_);
   drift_limit_ = limit;
   budget_ = budget;

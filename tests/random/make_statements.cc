@@ -172,7 +172,13 @@ void Maker::MakeAssign() {
     if (place == nullptr) break;
     const Place copy = *place;
     const ExprId target = PlaceExpr(copy, 1);
-    const ExprId value = ValueFor(copy.range, copy.type, 3);
+    if (!IsSinumerik() && random_.Percent(20)) Word(block, WordOp::kWhen, Comparison(1));
+    const bool rounded = !IsSinumerik() && BoundsOf(copy.range).whole && random_.Percent(30);
+    const ExprId value = rounded ? Call(ir::Function::kRound,
+                                        {NumberIn({BoundsOf(copy.range).low, BoundsOf(copy.range).high, false}, 2)},
+                                        ir::Type::kReal, BoundsOf(copy.range))
+                                       .id
+                                 : ValueFor(copy.range, copy.type, 3);
     block.Assign(target, value);
     any = true;
   }

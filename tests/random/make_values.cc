@@ -145,6 +145,11 @@ const Place* Maker::PickWritable() {
 }
 
 Maker::Made Maker::NumberIn(const Interval& target, int depth) {
+  const Made made = AnyNumberIn(target, depth);
+  return TooDeep(made) ? Literal(target) : made;
+}
+
+Maker::Made Maker::AnyNumberIn(const Interval& target, int depth) {
   const std::uint32_t way = random_.Below(10);
   if (way < 4) {
     const Place* const place = PickPlace(target, false);
@@ -160,7 +165,8 @@ Maker::Made Maker::Fit(Made made, const Interval& target) {
   const bool functions = Has(Feature::kFunctions);
   if (target.whole && !made.range.whole) {
     if (!functions) return Literal(target);
-    const bool cut = random_.Percent(50);
+    // ROUND inside a word of a FANUC program rounds to the increment (fanuc-4.4).
+    const bool cut = random_.Percent(50) || !IsSinumerik();
     made = Call(cut ? ir::Function::kTruncate : ir::Function::kRound, {made}, Type::kReal,
                 cut ? Truncated(made.range) : Rounded(made.range));
     if (made.range.Inside(target)) return made;
@@ -231,7 +237,9 @@ Maker::Made Maker::BitOperation(int depth) {
 Maker::Made Maker::Function(int depth) {
   using F = ir::Function;
   const Type real = Type::kReal;
-  switch (random_.Below(IsSinumerik() ? 16 : 13)) {
+  std::uint32_t which = random_.Below(IsSinumerik() ? 16 : 13);
+  if (which == 9 && !IsSinumerik()) which = 8;  // ROUND inside a word rounds to the increment (fanuc-4.4)
+  switch (which) {
     case 0:
       return Call(F::kSin, {Number(depth)}, real, Widen({-1, 1, false}));
     case 1:
@@ -241,7 +249,8 @@ Maker::Made Maker::Function(int depth) {
       return Call(F::kTan, {angle}, real, {-2, 2, false});
     }
     case 3:
-      return Call(F::kAsin, {NumberIn({-1, 1, false}, depth)}, real, {-90.001, 90.001, false});
+      return IsSinumerik() ? Call(F::kAsin, {NumberIn({-1, 1, false}, depth)}, real, {-90.001, 90.001, false})
+                           : Call(F::kAsinPositive, {NumberIn({-1, 1, false}, depth)}, real, {0, 360.001, false});
     case 4:
       return Call(F::kAcos, {NumberIn({-1, 1, false}, depth)}, real, {-0.001, 180.001, false});
     case 5: {
@@ -302,6 +311,11 @@ Maker::Made Maker::Function(int depth) {
 
 // Any number.
 Maker::Made Maker::Number(int depth) {
+  const Made made = AnyNumber(depth);
+  return TooDeep(made) ? Number(0) : made;
+}
+
+Maker::Made Maker::AnyNumber(int depth) {
   if (depth <= 0) {
     const Place* const place = random_.Percent(65) ? PickPlace({-kMost, kMost, false}, false) : nullptr;
     return place != nullptr ? ReadPlace(*place, depth) : Literal({-50, 50, random_.Percent(40)});
@@ -389,7 +403,7 @@ ExprId Maker::ValueFor(Range range, Type type, int depth) {
     return place != nullptr ? PlaceExpr(*place, depth) : expr_.AxisName(random_.Percent(50) ? 0 : 2);
   }
   if (range == Range::kTruth) {
-    if (type == Type::kBool || random_.Percent(40)) {
+    if (IsSinumerik() && (type == Type::kBool || random_.Percent(40))) {
       // A number becomes true or false only where a truth is wanted.
       const ExprId truth = type == Type::kBool || !IsSinumerik() ? Truth(depth) : Comparison(depth);
       const Type from = module_.exprs[truth].type;

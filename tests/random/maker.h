@@ -48,6 +48,7 @@ struct Place {
 
 struct Formal {
   Place place;
+  char letter = 0;  // of a macro's argument
   bool by_reference = false;
   bool may_miss = false;  // its value without an argument is in its range
 };
@@ -61,6 +62,7 @@ struct Subprogram {
   Knowledge exit;
   std::uint32_t touched = 0;  // groups that a call may change
   bool saves = false;
+  bool has_level = true;                        // its locals are its own; without: it may run on the caller's level
   bool repeatable = false;                      // its exit meets its entry: passes
   std::array<double, ir::kLetterAxes> drift{};  // mm, at most, of one call
   std::uint64_t cost = 0;                       // blocks, of one call
@@ -116,21 +118,32 @@ class Maker {
   void MakeSubprogram(std::uint32_t index);
   void MakeMain();
   void MakeLocals(std::uint32_t count);
+  void MakeLocalCells(std::uint32_t count);
+  void MakeCounterCells(std::uint32_t count);
   void WriteDefinitions();
   void WriteCellStarts();
+  void WriteLocalCells();
   void WriteModes(const Knowledge& wanted, bool with_frame);
   void WriteStart();
   void WriteEnd(bool main);
   Knowledge RandomEntry();
   Place AddLocal(Range range, ir::Type type, bool array);
   void MakeFormals(Subprogram& sub);
+  void MakeLetters(Subprogram& sub);
   void WriteHeader(const Subprogram& sub);
+  void WriteMissing(const Subprogram& sub);
+  // make_fanuc.cc
+  void FinishWords(ir::ProgramId program);
+  void MakeSteps();
+  [[nodiscard]] bool TooDeep(const Made& made) const;
   void WriteExterns();
 
   // --- make_values.cc
   Made Literal(const Interval& target);
   Made NumberIn(const Interval& target, int depth);
+  Made AnyNumberIn(const Interval& target, int depth);
   Made Number(int depth);
+  Made AnyNumber(int depth);
   Made Fit(Made made, const Interval& target);
   Made ReadPlace(const Place& place, int depth);
   Made Function(int depth);
@@ -195,7 +208,7 @@ class Maker {
   template <class Body>
   void Loop(std::uint32_t turns, const Body& body);
   std::uint32_t Turns();
-  void EmitMark(ir::WordOp op, ir::ExprId value = {});
+  void EmitMark(ir::WordOp op, ir::ExprId value = {}, std::uint8_t number = 0);
   void EmitJump(const Pending& target, ir::ExprId condition, bool forward, bool backward = false);
   Pending NewTarget(bool forward_only);
   const Place* TakeCounter();
@@ -320,7 +333,8 @@ class Maker {
   std::vector<Place> counter_cells_;  // cells that count loops, each of one program
   Knowledge initial_;                 // what main programs start with
   diag::Sink sink_;
-  ir::SpaceId cell_space_;
+  ir::SpaceId cell_space_, local_space_;
+  std::vector<Place> local_cells_;  // of the program being made
   ir::SystemId pi_, programmed_position_;
 
   // The program being made.

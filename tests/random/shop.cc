@@ -18,6 +18,11 @@ unsigned RadiusOf(unsigned tool, unsigned edge) { return LengthOf(tool, edge) + 
 }  // namespace
 
 dialects::Config ShopDataFor(const dialects::Profile& target) {
+  if (target.language == dialects::Language::kSinumerik) {
+    dialects::Config config = ShopDataBack(target);
+    config.offsets.push_back({"G58", "G507", {}, {}});
+    return config;
+  }
   dialects::Config config;
   for (unsigned tool = 1; tool <= kTools; ++tool) {
     const std::string name =
@@ -37,6 +42,25 @@ dialects::Config ShopDataFor(const dialects::Profile& target) {
   // The operator's cells stay in one row: a subprogram that nobody calls here reads them unwritten.
   for (unsigned cell = 0; cell < 100; ++cell)
     config.variables.push_back({fmt::format("R{}", cell), fmt::format("#{}", 500 + cell), {}});
+  return config;
+}
+
+dialects::Config ShopDataBack(const dialects::Profile& from) {
+  dialects::Config config;
+  config.offsets = {{"G59", "G500", {}, {}}, {"G54.1 P1", "G505", {}, {}}, {"G54.1 P19", "G523", {}, {}}};
+  for (unsigned tool = 1; tool <= kTools; ++tool) {
+    for (unsigned edge = 1; edge <= kEdges; ++edge) {
+      const unsigned registers = LengthOf(tool, edge);
+      const std::string words = NameOfTool(tool).empty() ? fmt::format("T{} D{}", tool, edge)
+                                                         : fmt::format("T=\"{}\" D{}", NameOfTool(tool), edge);
+      if (from.IsLathe()) {
+        config.tools.push_back({fmt::format("T{:02}{:02}", tool, registers), words, {}});
+        continue;
+      }
+      config.tools.push_back({fmt::format("T{} H{} D{}", tool, registers, RadiusOf(tool, edge)), words, {}});
+      config.tools.push_back({fmt::format("T{} H{}", tool, registers), words, {}});
+    }
+  }
   return config;
 }
 

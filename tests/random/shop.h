@@ -11,6 +11,9 @@ namespace ncport::tests::random {
 /// off.
 dialects::Config ShopDataFor(const dialects::Profile& target);
 
+/// The way back: the words of such a target to the SINUMERIK words that they stand for.
+dialects::Config ShopDataBack(const dialects::Profile& from);
+
 /// The same as maps for a comparison with a program that no translation made: SINUMERIK words to flat ones.
 prove::Maps ShopMapsFor(const dialects::Profile& target);
 

@@ -389,6 +389,7 @@ ExprId Maker::Truth(int depth) {
   if (IsSinumerik() && way < 7) {
     const Place* const place = FindPlace(Range::kTruth, Type::kBool);
     if (place != nullptr) return PlaceExpr(*place, depth);
+    if (!Has(Feature::kPlainTruth)) return Comparison(depth);
     return expr_.Literal(random_.Below(2), Type::kBool);
   }
   if (IsSinumerik() && way == 7 && Draw(Feature::kTextFunctions)) return TextTruth(depth);

@@ -21,13 +21,13 @@ constexpr std::string_view kWithoutTools = NCPORT_NO_FANUC ",tool=0,cutter-comp=
 // What has no way back: what a computed number or a unit stands for must be known there.
 #define NCPORT_NO_WAY_BACK                                                                              \
   ",units=0,bit-operations=0,integer-division=0,computed-index=0,skip-level=0,surface-speed=0,frame=0," \
-  "feed-mode=0,thread=0,tangle=0,case=0,plain-jump=0,plain-truth=0,loop=0,alarm=0"
+  "feed-mode=0,thread=0,tangle=0,case=0,plain-jump=0,plain-truth=0,loop=0,alarm=0,path-mode=0"
 constexpr std::string_view kBackWithTools = NCPORT_NO_FANUC ",plane=0" NCPORT_NO_WAY_BACK;
 constexpr std::string_view kBackWithoutTools = NCPORT_NO_FANUC ",tool=0,cutter-comp=0" NCPORT_NO_WAY_BACK;
 #undef NCPORT_NO_WAY_BACK
 #undef NCPORT_NO_FANUC
 constexpr std::string_view kGenerated =
-    "units=0,computed-index=0,skip-level=0,surface-speed=0,feed-mode=0,cutter-comp=0,modal-call=0,passes=0";
+    "units=0,computed-index=0,skip-level=0,surface-speed=0,feed-mode=0,cutter-comp=0,modal-call=0,passes=0,path-mode=0";
 // What literal blocks have no word for.
 constexpr std::string_view kNotFlat =
     "tap=0,machine-coords=0,reference=0,spindle-position=0,aux-h=0,thread-variable=0,thread-start=0,"

@@ -65,7 +65,12 @@ void Maker::Code(ir::BlockBuilder& block, ir::WordOp op, std::uint8_t index, std
                                          ? dialects::sinumerik::Codes()
                                          : dialects::fanuc::Codes(*dialects::fanuc::SystemOf(*options_.profile));
   const dialects::CodeRow* const row = codes.FindMeaning(op, index, extra);
-  if (row == nullptr) return;
+  if (row == nullptr) {
+    // M3 M4 M5 of this language stand in the profile; M5 acts behind the move of its block (fanuc-8.11).
+    if (op == ir::WordOp::kSpindle && extra == static_cast<std::uint32_t>(ir::SpindleState::kStop))
+      block.Last().phase = ir::Phase::kAfter;
+    return;
+  }
   block.Last().phase = row->phase;
   block.Last().flags |= row->flags;
 }

@@ -206,6 +206,7 @@ class Hints {
     Put(Code::kUnknownName, at_ - 1);
     std::vector<std::string_view> names;
     for (const auto& row : words::Functions()) names.push_back(row.text);
+    for (const auto& row : words::ValueModes()) names.push_back(row.text);
     const std::string_view near = NearName(TextOf(at_ - 1), names);
     if (!near.empty()) return Say("did you mean {}?", near);
     return Say("there is no such function; an array has its index in []");
@@ -546,6 +547,17 @@ void ExplainWord(std::string_view line, LineError& error, std::string& help) {
       help = fmt::format("{} is no digit of a {} number", behind[i], hex ? "hexadecimal" : "binary");
       break;
     }
+    if (!hex && !binary) help = "a text stands in double quotes; these mark hexadecimal and binary numbers";
+  } else if (error.code == Code::kMissingValue && (c == 'I' || c == 'L') && error.begin > 1 &&
+             digit_at(error.begin - 1) && (behind.empty() || behind[0] <= ' ')) {
+    // `X3I`: the letter for the digit 1 behind a number.
+    std::size_t begin = error.begin;
+    while (begin > 0 && (IsDigit(line[begin - 1]) || line[begin - 1] == '.' || line[begin - 1] == '-')) --begin;
+    if (begin > 0) --begin;
+    help = fmt::format("did you mean {}1?", line.substr(begin, error.begin - begin));
+    error = {.code = Code::kBadNumber,
+             .begin = static_cast<std::uint32_t>(begin),
+             .length = static_cast<std::uint32_t>(error.begin + 1 - begin)};
   } else if (error.code == Code::kUnknownCharacter && c == '|') {
     help = "the word OR joins two conditions";
   } else if (error.code == Code::kUnexpectedText && (c == ')' || c == ']')) {

@@ -175,9 +175,12 @@ bool Resolver::UnknownName(ExprId id, std::string_view name) {
   }
   std::sort(known.begin(), known.end());
   std::string_view near = NearName(name, known);
+  const std::string_view address = near.empty() && address_likely_ ? NearAddress(name) : std::string_view();
   if (near.empty()) near = NearValueWord(name);
   if (const std::string mode = AsModeWithValue(name); !mode.empty()) {
     finding.help = "did you mean " + mode + "?";
+  } else if (!address.empty()) {
+    finding.help = "did you mean " + std::string(address) + "? A variable is declared with DEF";
   } else if (!near.empty()) {
     finding.help = "did you mean " + std::string(near) + "?";
   } else if (text_likely_) {
@@ -319,7 +322,10 @@ bool Resolver::Word(ir::Word& word) {
           return Number(word.value);
         }
       }
-      return Place(place) && Converted(word.value, module_.exprs[place].type);
+      address_likely_ = true;
+      const bool known = Place(place);
+      address_likely_ = false;
+      return known && Converted(word.value, module_.exprs[place].type);
     }
     case WordOp::kAssignList:
       return List(word.Extra<ir::AssignListId>(), module_.assign_lists[word.Extra<ir::AssignListId>()].place, {});

@@ -118,6 +118,7 @@ class Resolver {
   std::unordered_map<std::string, Missing> missing_names_;  // of program_, upper case
   std::unordered_set<std::string> missing_programs_;
   std::unordered_set<std::string> externs_;          // of program_, upper case; also those that had a finding
+  bool address_likely_ = false;                      // an address may stand where a name gets a value
   bool text_likely_ = false;                         // a text may stand where names are looked up
   std::unordered_set<std::string> doubted_systems_;  // system variables that had a finding
   ir::VariableId parameter_;                         // whose argument is resolved

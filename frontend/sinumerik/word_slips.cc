@@ -65,6 +65,14 @@ std::string_view NearCodeWord(std::string_view word) {
 
 std::string_view NearInnerWord(std::string_view word) { return NearName(word, kInnerWords); }
 
+std::string_view NearAddress(std::string_view word) {
+  std::vector<std::string_view> known;
+  for (const auto& row : words::Addresses()) {
+    if (row.text.size() > 1) known.push_back(row.text);
+  }
+  return NearName(word, known);
+}
+
 std::string_view NearValueWord(std::string_view word) {
   std::vector<std::string_view> known{"TRUE", "FALSE"};
   for (const auto& row : words::Functions()) known.push_back(row.text);

@@ -21,6 +21,8 @@ std::string_view NearStatementWord(std::string_view word);
 std::string_view NearCodeWord(std::string_view word);
 /// A word that stands inside of blocks (AND, TO, GOTOF) or a function, spelled nearly so, or nothing.
 std::string_view NearInnerWord(std::string_view word);
+/// An address of several letters (CR, LIMS), spelled nearly so, or nothing.
+std::string_view NearAddress(std::string_view word);
 /// TRUE, FALSE or a function, spelled nearly so, or nothing.
 std::string_view NearValueWord(std::string_view word);
 

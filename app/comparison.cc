@@ -62,6 +62,7 @@ prove::Maps MapsOf(const ir::Module& source, const backends::Translation& transl
     pair.source_tool = use.source_tool;
     pair.source_edge = use.source_edge;
     pair.target_tool = use.target_tool;
+    pair.target_suffix = use.target_suffix;
     pair.target_offset = use.target_offset;
     pair.target_radius = use.target_radius;
     pair.source_radius = use.source_radius;

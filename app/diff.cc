@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 
+#include "app/added_blocks.h"
 #include "app/ncport.h"
 #include "app/pipeline.h"
 #include "dialects/machine.h"
@@ -33,6 +35,7 @@ Status RunSide(Context& context, const Input& input, const std::string& from, co
   NCPORT_TRY(app::ReadSet(context, {input}, settings, app::ProfileNeed::kGuess, side.set));
   NCPORT_TRY_ASSIGN(const exec::RunOptions run, app::RunOptionsFor(context, side.set, settings));
   side.machine = dialects::MachineFor(side.set.profile);
+  app::MarkAddedBlocks(side.set.module, side.set.profile.language);
   const exec::Linked linked(side.set.module, side.machine);
   exec::NoEnvironment environment;
   side.outcome = exec::Run(linked, run, environment, side.trace, context.findings).outcome;
@@ -48,7 +51,7 @@ Status RunSide(Context& context, const Input& input, const std::string& from, co
 
 }  // namespace
 
-Status Diff(Context& context, const Input& a, const Input& b, const DiffOptions& options) {
+Status Diff(Context& context, const Input& a, const Input& b, const DiffOptions& options, DiffResult& result) {
   DiffSide source(options.max_events);
   DiffSide target(options.max_events);
   NCPORT_TRY(RunSide(context, a, options.from_a, options, source));
@@ -62,7 +65,18 @@ Status Diff(Context& context, const Input& a, const Input& b, const DiffOptions&
   compare.tolerance = options.tolerance;
   const prove::Comparison comparison =
       prove::Compare(source.trace, target.trace, compare, target.machine.start.work_offset);
-  if (!comparison.difference) return {};
+  if (!comparison.difference) {
+    const auto added = [](const DiffSide& side) {
+      const auto& events = side.trace.Events();
+      return std::count_if(events.begin(), events.end(), [](const exec::Event& event) { return event.added; });
+    };
+    result.summary = fmt::format(
+        "EQUAL: both programs make the machine do the same.\n"
+        "  {} pairs of events compared, {} and {} events are of blocks marked as added\n"
+        "  {} changes of a spindle stand on the other side of a rapid\n",
+        comparison.events_compared, added(source), added(target), comparison.spindle_moved_across_rapid);
+    return {};
+  }
   auto& finding = context.findings.Report(
       diag::Code::kTraceDiffers, PlaceOf(source, comparison.difference->source_block), comparison.difference->what);
   const SourceRange other = PlaceOf(target, comparison.difference->target_block);

@@ -443,7 +443,11 @@ int RunDiff(const DiffArguments& arguments) {
   options.from_b = arguments.from_b;
   options.tolerance = arguments.tolerance;
   options.max_events = arguments.max_events;
-  return session.End(Diff(session.context, session.Inputs()[0], session.Inputs()[1], options));
+  DiffResult result;
+  const Status ok = Diff(session.context, session.Inputs()[0], session.Inputs()[1], options, result);
+  const int code = session.End(ok);
+  if (!result.summary.empty() && !arguments.quiet) fmt::print(stderr, "{}", result.summary);
+  return code;
 }
 
 int RunExplain(const std::string& code) {

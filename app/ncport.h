@@ -102,6 +102,10 @@ struct DiffOptions : RunSettings {
   std::uint64_t max_events = 2'000'000;  // kept of each run, some 400 bytes each
 };
 
+struct DiffResult {
+  std::string summary;  // EQUAL and what was compared, for reading; empty after a difference
+};
+
 struct CheckOptions : ReadSettings {
   std::vector<std::string> select, ignore;  // codes or their first characters (`NC5`); empty select: all
   std::string target;                       // profile: find also what `translate --to` would refuse; empty: none
@@ -123,8 +127,9 @@ Status Flatten(Context& context, std::vector<Input> inputs, const FlattenOptions
 /// Writes the programs in the language of the target, loops and variables kept. Fails after errors.
 Status Translate(Context& context, std::vector<Input> inputs, const TranslateOptions& options, TranslateResult& result);
 
-/// Runs both programs and compares what the machine does, also across languages. Fails after a difference.
-Status Diff(Context& context, const Input& a, const Input& b, const DiffOptions& options);
+/// Runs both programs and compares what the machine does, also across languages. Blocks that a translation marks as its
+/// own are left out as contracts section 6 allows. Fails after a difference.
+Status Diff(Context& context, const Input& a, const Input& b, const DiffOptions& options, DiffResult& result);
 
 /// Reads and checks all programs. Fails when an error was found. Findings that a comment `ncport: ignore NCxxxx` or the
 /// options silence are not in the context.

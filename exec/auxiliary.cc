@@ -13,6 +13,12 @@ namespace {
 
 constexpr double kFoot = 0.3048;
 
+/// Decimals of a tool number as hundredths: which of the tools with this number (mazak-lathe-4.1).
+std::uint32_t SuffixOf(double number) {
+  constexpr std::uint32_t kHundred = 100;
+  return static_cast<std::uint32_t>(std::lround((number - std::floor(number)) * kHundred)) % kHundred;
+}
+
 }  // namespace
 
 /// A number as INT addresses take it: rounded, not negative.
@@ -136,6 +142,7 @@ void Auxiliary::Tool(const Value& value, bool edge_follows) {
     channel_.prepared_name.clear();
     channel_.prepared_number = Whole(value);
     event.number = static_cast<std::uint32_t>(channel_.prepared_number);
+    if (session_.machine.tool_suffix) event.extension = SuffixOf(evaluator_.ToNumber(value));
   }
   emitter_.Send(event);
   if (changes) TakeTool(edge_follows);

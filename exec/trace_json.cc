@@ -141,6 +141,7 @@ void Details(Object& object, const Event& event, const ir::Module& module) {
       return object.Number("value", event.value);
     case EventKind::kTool:
       if (!event.text.empty()) return object.Text("name", event.text);
+      if (event.extension != 0) object.Number("suffix", event.extension);
       return object.Number("number", event.number);
     case EventKind::kOffset:
       object.Text("register", event.offset == OffsetKind::kEdge     ? "edge"

@@ -181,7 +181,13 @@ void Line(TextBuffer& buffer, const Event& event, const ir::Module& module) {
       return Spindle(buffer, event);
     case EventKind::kTool:
       buffer.Append("TOOL ");
-      if (event.text.empty()) return AppendInteger(buffer, event.number);
+      if (event.text.empty()) {
+        AppendInteger(buffer, event.number);
+        if (event.extension == 0) return;
+        buffer.Append('.');
+        if (event.extension < 10) buffer.Append('0');
+        return AppendInteger(buffer, event.extension);
+      }
       buffer.Append('"');
       buffer.Append(event.text);
       return buffer.Append('"');

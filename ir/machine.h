@@ -155,6 +155,7 @@ struct Machine {
   bool surface_speed_per_revolution = true;  // constant surface speed switches the feed to per revolution
   ModalCallTrigger modal_call_trigger = ModalCallTrigger::kMotionBlocks;
   bool tool_activates_edge = false;  // a tool call without edge selects edge 1
+  bool tool_suffix = false;          // T1.02: the decimals say which of the tools with this number is meant
   bool tool_word_changes = false;    // the tool word changes the tool; else it waits for a change word
 
   NumberUnits units;

@@ -28,6 +28,7 @@ struct ToolPair {
   std::uint32_t source_radius = 0;  // a source with registers; 0 = none
   std::string target_name;
   std::uint32_t target_tool = 0;
+  std::uint32_t target_suffix = 0;  // decimals of the tool number; 0 = none
   std::uint32_t target_offset = 0;  // register of the target; 0 = none
   std::uint32_t target_radius = 0;  // mills: register of the radius, target_offset is that of the length; 0 = none
 };

@@ -21,6 +21,7 @@ struct ToolUse {
   std::uint32_t source_tool = 0, source_edge = 0;  // a mill with registers: the length is the edge
   std::uint32_t source_radius = 0;                 // register of such a mill; 0 = none
   std::uint32_t target_tool = 0, target_offset = 0;
+  std::uint32_t target_suffix = 0;  // decimals of the tool number (T1.02), as hundredths; 0 = none
   std::uint32_t target_radius = 0;  // mills: D register; 0 = none
   bool offset_only = false;         // somewhere only for an offset of the tool that is in: a D word of the source
 };

@@ -93,6 +93,19 @@ std::uint32_t NumberBehind(std::string_view words, char letter, std::size_t* dig
   return 0;
 }
 
+/// The decimals of the first T word as hundredths: 2 of "T01.02 M6"; 0: none.
+std::uint32_t ToolSuffix(std::string_view words) {
+  std::size_t at = words.find('T');
+  if (at == std::string_view::npos) return 0;
+  at = words.find_first_not_of("0123456789", at + 1);
+  if (at == std::string_view::npos || words[at] != '.') return 0;
+  std::uint32_t suffix = 0;
+  std::uint32_t unit = 10;
+  for (++at; at < words.size() && words[at] >= '0' && words[at] <= '9'; ++at, unit /= 10)
+    suffix += unit * static_cast<std::uint32_t>(words[at] - '0');
+  return suffix;
+}
+
 bool HasWord(std::string_view words, std::string_view word) {
   for (std::size_t at = words.find(word); at != std::string_view::npos; at = words.find(word, at + 1)) {
     const std::size_t end = at + word.size();
@@ -317,6 +330,7 @@ bool MapTools(const RaiseInput& input, Translation& out, diag::Sink& sink) {
       const bool keeps_tool =
           lathe && !changes_by_m6 && tool == nullptr && !change && StaysIn(input, last_tool, *mapping);
       use.offset_only = keeps_tool;
+      if (input.profile->IsMazakLathe()) use.target_suffix = ToolSuffix(use.target_words);
       const auto known = std::find_if(out.tools.begin(), out.tools.end(),
                                       [&](const ToolUse& other) { return other.source_words == use.source_words; });
       if (known == out.tools.end()) {

@@ -100,6 +100,8 @@ void FillMachine(const Profile& profile, ir::Machine& machine) {
   machine.modal_call_trigger = ir::ModalCallTrigger::kMotionBlocks;
   machine.tool_activates_edge = false;
   // fanuc-8.11: a turret turns at T; mazak-lathe-4.2: M6 on an Integrex.
+  // mazak-lathe-4.1, 4.2.
+  machine.tool_suffix = SystemOf(profile) == System::kMazakM || SystemOf(profile) == System::kMazakT;
   machine.tool_word_changes = machine.lathe && SystemOf(profile) != System::kMazakM;
   // fanuc-8.1, mazak-lathe-2.6: by 3405#1 DWL, F92.2 a dwell counts revolutions.
   machine.dwell_per_revolution = !settings.dwell.Known()                          ? ir::DwellUnit::kUnknown

@@ -378,5 +378,67 @@ TEST_CASE("a split rapid ends where the rapid does") {
   CHECK_FALSE(Agree(a, wrong, options));
 }
 
+TEST_CASE("the spindle counts where the program stops, dwells or changes the tool") {
+  using State = ir::SpindleState;
+  for (const EventKind kind : {EventKind::kStop, EventKind::kOptionalStop, EventKind::kDwell, EventKind::kTool}) {
+    CAPTURE(static_cast<int>(kind));
+    Trace turning, standing, other;
+    turning.Turn(State::kCw).Number(kind, 1).Turn(State::kStop).End();
+    standing.Turn(State::kCw).Turn(State::kStop).Number(kind, 1).End();
+    other.Turn(State::kCcw).Number(kind, 1).Turn(State::kStop).End();
+    CHECK(Agree(turning, turning));
+    CHECK_FALSE(Agree(turning, standing));
+    CHECK_FALSE(Agree(turning, other));
+  }
+  Trace plain, stopped;
+  plain.Turn(State::kCw).Number(EventKind::kTool, 1).Turn(State::kStop).End();
+  stopped.Turn(State::kCw).Added().Turn(State::kStop).Number(EventKind::kTool, 1).Turn(State::kStop).End();
+  CHECK(Agree(plain, stopped));  // a frame of the target stops it for the change
+}
+
+TEST_CASE("tools of one number with other decimals, reference points and signs of a length are told apart") {
+  const auto one = [](EventKind kind, std::uint32_t number, std::uint32_t extension, bool minus) {
+    Event event;
+    event.kind = kind;
+    event.number = number;
+    event.extension = extension;
+    event.offset = exec::OffsetKind::kLength;
+    event.length_minus = minus;
+    Trace trace;
+    trace.Put(event).End();
+    return trace;
+  };
+  CHECK(Agree(one(EventKind::kTool, 1, 1, false), one(EventKind::kTool, 1, 1, false)));
+  CHECK_FALSE(Agree(one(EventKind::kTool, 1, 1, false), one(EventKind::kTool, 1, 2, false)));
+  CHECK_FALSE(Agree(one(EventKind::kReference, 0, 0, false), one(EventKind::kReference, 2, 0, false)));
+  CHECK_FALSE(Agree(one(EventKind::kOffset, 1, 0, false), one(EventKind::kOffset, 1, 0, true)));
+}
+
+TEST_CASE("an alarm without a number is known by its class") {
+  Trace numbered, plain, range;
+  numbered.Alarm(ir::AlarmClass::kArithmetic, "PS0112");
+  plain.Alarm(ir::AlarmClass::kArithmetic, "");
+  range.Alarm(ir::AlarmClass::kRange, "");
+  CompareOptions options;
+  options.maps.cross_language = false;
+  CHECK(Agree(numbered, plain, options));
+  CHECK_FALSE(Agree(numbered, range, options));
+}
+
+TEST_CASE("the path mode counts at motions, wherever it was selected") {
+  const auto path = [](ir::PathMode mode) {
+    Event event;
+    event.kind = EventKind::kPath;
+    event.path = mode;
+    return event;
+  };
+  Trace a, head, other;
+  a.Put(path(ir::PathMode::kExact)).Line(1, 1, 1).End();
+  head.Added().Put(path(ir::PathMode::kExact)).Line(1, 1, 1).End();
+  other.Put(path(ir::PathMode::kContinuous)).Line(1, 1, 1).End();
+  CHECK(Agree(a, head));
+  CHECK_FALSE(Agree(a, other));
+}
+
 }  // namespace
 }  // namespace ncport::prove

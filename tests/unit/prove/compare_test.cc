@@ -404,14 +404,18 @@ TEST_CASE("tools of one number with other decimals, reference points and signs o
     event.extension = extension;
     event.offset = exec::OffsetKind::kLength;
     event.length_minus = minus;
-    Trace trace;
-    trace.Put(event).End();
-    return trace;
+    return event;
   };
-  CHECK(Agree(one(EventKind::kTool, 1, 1, false), one(EventKind::kTool, 1, 1, false)));
-  CHECK_FALSE(Agree(one(EventKind::kTool, 1, 1, false), one(EventKind::kTool, 1, 2, false)));
-  CHECK_FALSE(Agree(one(EventKind::kReference, 0, 0, false), one(EventKind::kReference, 2, 0, false)));
-  CHECK_FALSE(Agree(one(EventKind::kOffset, 1, 0, false), one(EventKind::kOffset, 1, 0, true)));
+  const auto agree = [](const Event& a, const Event& b) {
+    Trace left, right;
+    left.Put(a).End();
+    right.Put(b).End();
+    return Agree(left, right);
+  };
+  CHECK(agree(one(EventKind::kTool, 1, 1, false), one(EventKind::kTool, 1, 1, false)));
+  CHECK_FALSE(agree(one(EventKind::kTool, 1, 1, false), one(EventKind::kTool, 1, 2, false)));
+  CHECK_FALSE(agree(one(EventKind::kReference, 0, 0, false), one(EventKind::kReference, 2, 0, false)));
+  CHECK_FALSE(agree(one(EventKind::kOffset, 1, 0, false), one(EventKind::kOffset, 1, 0, true)));
 }
 
 TEST_CASE("an alarm without a number is known by its class") {

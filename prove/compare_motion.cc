@@ -26,7 +26,17 @@ double WordErrorOf(const Precision& precision) {
   return 0;
 }
 
+/// The first fixed point of one language is the reference point of another (sinumerik-12.2).
+bool IsFirst(const Event& event) {
+  return event.number == static_cast<std::uint32_t>(ir::ReferenceKind::kReference) ||
+         event.number == static_cast<std::uint32_t>(ir::ReferenceKind::kFixedPoint);
+}
+
 }  // namespace
+
+bool Comparer::SamePoint(const Event& a, const Event& b) const {
+  return a.number == b.number || (options_.maps.cross_language && IsFirst(a) && IsFirst(b));
+}
 
 std::string AxisName(std::uint8_t axis) {
   constexpr std::string_view kNames = "XYZABCUVW";
@@ -110,7 +120,7 @@ void Comparer::CompareMotionDetails(const Event& a, const Event& b) {
       break;
     case EventKind::kReference:
       if (a.moved_axes != b.moved_axes) return Fail(&a, &b, "other axes go to the reference point");
-      if (a.number != b.number) return Fail(&a, &b, "another reference point is approached");
+      if (!SamePoint(a, b)) return Fail(&a, &b, "another reference point is approached");
       break;
     default:
       break;

@@ -46,6 +46,7 @@ class Comparer {
   void CompareMotionDetails(const exec::Event& a, const exec::Event& b);
   void CompareSpindles(const exec::Event& a, const exec::Event& b, const Spindles& source, const Spindles& target);
   void CompareSpindle(const exec::Event& a, const exec::Event& b, const SpindleNow& sa, const SpindleNow& sb);
+  [[nodiscard]] bool SamePoint(const exec::Event& a, const exec::Event& b) const;
   void CompareSpindlesNow(const exec::Event& a, const exec::Event& b);
   void CompareSpindlesAtChange(const exec::Event& a, const exec::Event& b);
   void CompareTool(const exec::Event& a, const exec::Event& b);

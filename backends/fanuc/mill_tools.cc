@@ -192,6 +192,10 @@ Mapper::Words Mapper::Look(const Block& block) const {
         words.moves = true;
         words.moves_z = words.moves_z || word.index == kZ;
         break;
+      case WordOp::kPolarAngle:
+      case WordOp::kPolarRadius:
+        words.moves = true;  // in the plane: not along Z, but for planes that are refused below
+        break;
       case WordOp::kAxisComputed:
         words.moves = words.moves_z = true;
         break;

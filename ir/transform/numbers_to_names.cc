@@ -9,9 +9,9 @@
 #include <string_view>
 
 #include "ir/analysis/call_graph.h"
+#include "ir/analysis/index_range.h"
 #include "ir/builder.h"
 #include "ir/transform/lower_vacant_values.h"
-#include "ir/analysis/index_range.h"
 #include "ir/transform/new_local.h"
 #include "ir/transform/program_editor.h"
 #include "ir/transform/rewrite_exprs.h"

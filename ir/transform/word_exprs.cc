@@ -5,8 +5,7 @@
 
 namespace ncport::ir::transform {
 
-void VisitWordExprs(const Module& module, const Word& word,
-                    const std::function<void(ExprId root, bool place)>& visit) {
+void VisitWordExprs(const Module& module, const Word& word, const std::function<void(ExprId root, bool place)>& visit) {
   VisitValues(module, word, [&](ExprId root) {
     if (root.Valid()) visit(root, false);
   });

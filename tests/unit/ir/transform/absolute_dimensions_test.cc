@@ -49,10 +49,11 @@ TEST_CASE("an increment is the position that it leads to; in a loop that is held
 
 TEST_CASE("where a part with computed ends may run any block, no increment has a known start") {
   diag::Sink sink;
-  Absolute("  @m:1 : repeat-part first expression R[1]\n"
-           "  @m:2 : axis X = 1\n"
-           "  @m:3 : axis X incremental = 2\n",
-           sink);
+  Absolute(
+      "  @m:1 : repeat-part first expression R[1]\n"
+      "  @m:2 : axis X = 1\n"
+      "  @m:3 : axis X incremental = 2\n",
+      sink);
   CHECK(sink.HasErrors());
 }
 

@@ -1,4 +1,5 @@
 // The command line: options, files, exit codes. What the commands do is in the library (app/ncport.h).
+// Longer than other files: the options of all commands stand in one place, as --help shows them.
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <sys/stat.h>

@@ -9,8 +9,6 @@ namespace ncport::ir::transform {
 
 namespace {
 
-constexpr SlotMask kAxisSlots = MaskOf(kMaxAxes) - 1;
-
 bool Leaves(analysis::EdgeKind kind) {
   return kind == analysis::EdgeKind::kReturn || kind == analysis::EdgeKind::kReturnToTarget ||
          kind == analysis::EdgeKind::kTextEnd;

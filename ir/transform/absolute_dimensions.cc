@@ -119,7 +119,7 @@ void DimensionPass::FindEffects() {
           if (word.op == WordOp::kPlane) now.slots |= kPolarSlots;
           if (word.op == WordOp::kFrame) now.slots |= kLinearSlots | kShiftSlots;
           // The zero point moves: what the axes stand at are other numbers then.
-          if (word.op == WordOp::kWorkOffset || word.op == WordOp::kPresetPosition) now.slots |= MaskOf(kMaxAxes) - 1;
+          if (word.op == WordOp::kWorkOffset || word.op == WordOp::kPresetPosition) now.slots |= kAxisSlots;
           now.reframes = now.reframes || word.op == WordOp::kFrame || word.op == WordOp::kWorkOffset ||
                          word.op == WordOp::kPresetPosition;
           VisitPlaces(module_, word, [&](ExprId written) {

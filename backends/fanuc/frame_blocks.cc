@@ -236,9 +236,37 @@ void FrameMainPrograms(const RaiseInput& input, Translation& out) {
   if (!footer.empty()) out.added.push_back("end of the main program: away from the work, spindle off");
 }
 
-void FrameToolChanges(const RaiseInput& input, Translation& out) {
+namespace {
+
+/// Block straight behind the tool call `at` that cuts although X or Z still stands where the way home left it; none if
+/// both are named before, or a jump or call comes first.
+BlockId CutFromHome(const Module& module, IdRange<BlockId> blocks, BlockId at) {
+  constexpr std::uint32_t kBoth = 1U << 0U | 1U << 2U;
+  std::uint32_t named = 0;
+  bool cuts = false;  // a path that is not a rapid, as far as the blocks since the call say
+  for (std::uint32_t i = at.value + 1; i < blocks.begin + blocks.count && named != kBoth; ++i) {
+    const Block& block = module.blocks[BlockId{i}];
+    bool moves = false;
+    for (const ir::WordId id : block.words) {
+      const Word& word = module.words[id];
+      if (ir::DefaultPhaseOf(word.op) == ir::Phase::kFlow || ir::DefaultPhaseOf(word.op) == ir::Phase::kLast ||
+          ir::IsStructureMark(word.op))
+        return {};
+      if (word.op == WordOp::kMotion) cuts = static_cast<ir::Motion>(word.index) != ir::Motion::kRapid;
+      if (word.op != WordOp::kAxis) continue;
+      moves = true;
+      named |= 1U << word.index & kBoth;
+    }
+    if (moves && cuts && named != kBoth) return BlockId{i};
+  }
+  return {};
+}
+
+}  // namespace
+
+bool FrameToolChanges(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   const dialects::Profile& profile = *input.profile;
-  if (!profile.IsLathe()) return;
+  if (!profile.IsLathe()) return true;
   Module& module = out.module;
   const std::vector<std::string> home =
       Filled(profile, profile.words.safe_position.Known() ? *profile.words.safe_position : profile.words.home.Or({}));
@@ -252,6 +280,7 @@ void FrameToolChanges(const RaiseInput& input, Translation& out) {
     }
   }
   bool any = false;
+  bool ok = true;
   for (const ir::ProgramId program : module.programs.Ids()) {
     ProgramEditor editor(module, program, "frame");
     bool first = module.programs[program].kind == ir::ProgramKind::kMain;
@@ -260,6 +289,13 @@ void FrameToolChanges(const RaiseInput& input, Translation& out) {
       if (!std::exchange(first, false)) {
         for (const std::string& line : home) editor.InsertBefore(id, AddedBlock(module, editor, id, line));
         any = true;
+        const BlockId cut = home.empty() ? BlockId{} : CutFromHome(module, module.programs[program].blocks, id);
+        if (cut.Valid()) {
+          ok = false;
+          sink.Report(diag::Code::kNotExpressible, module.RangeOf(module.blocks[cut]),
+                      "a cut behind a tool change before X and Z were both programmed again", profile.name)
+              .help = "the tool comes from its change position: move both axes to the work first";
+        }
       }
       for (const std::string& line : behind) editor.InsertAfter(id, AddedBlock(module, editor, id, line));
     }
@@ -268,6 +304,7 @@ void FrameToolChanges(const RaiseInput& input, Translation& out) {
   if (!behind.empty())
     out.added.emplace_back("behind each tool change: X as a diameter, B in the position for turning");
   if (any) out.added.push_back("tool change: away from the work in front of it, work offset again behind it");
+  return ok;
 }
 
 void GuardMacros(const RaiseInput& input, Translation& out) {

@@ -462,7 +462,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   if (ok) TellCarriedPositions(carried, out);
   GuardMacros(input, out);
   if (framed) {
-    FrameToolChanges(input, out);
+    ok = FrameToolChanges(input, out, sink) && ok;
     FrameMainPrograms(input, out);
   }
   LimitMWords(input, out);  // behind all that makes blocks

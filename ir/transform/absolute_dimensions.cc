@@ -305,6 +305,7 @@ void DimensionPass::FindCarryLive() {
       carry_live_[i] = behind;
     }
   }
+  entry_carried_ = blocks_.count == 0 ? 0 : arrives[0];
 }
 
 ExprId DimensionPass::Held(Slot slot) {
@@ -543,6 +544,31 @@ Slots DimensionPass::EntrySlots() {
   return slots;
 }
 
+/// Values that the program starts with and that arrive in their locals somewhere: no block names them before.
+void DimensionPass::SaveEntry(Slots& slots, bool emit) {
+  for (Slot slot = 0; slot < SlotsUsed(); ++slot) {
+    SlotValue& value = slots[slot];
+    if ((entry_carried_ >> slot & 1U) == 0 || !value.Known()) continue;
+    const ExprId held = Held(slot);
+    if (emit) {
+      Word word;
+      word.op = WordOp::kAssign;
+      word.phase = DefaultPhaseOf(WordOp::kAssign);
+      word.extra = held.value;
+      word.value = ExprOf(module_, value.form);
+      Block made = editor_->MakeBlock(blocks_[0]);
+      editor_->SetWords(made, {word});
+      // Behind the head; in front of a block that jumps may come back to, without its label.
+      if (Has(module_, module_.blocks[blocks_[0]], WordOp::kHeader)) {
+        editor_->InsertAfter(blocks_[0], made);
+      } else {
+        editor_->InsertBefore(blocks_[0], made);
+      }
+    }
+    value.form = FormOf(module_, held);
+  }
+}
+
 void DimensionPass::Flow() {
   const analysis::Cfg& graph = graphs_.Of(program_);
   std::vector<SlotMask> carried_before;
@@ -558,6 +584,7 @@ void DimensionPass::Flow() {
       return;
     }
     in_[0] = EntrySlots();
+    SaveEntry(in_[0], false);
     std::set<std::uint32_t> work{0};
     // As soon as a place is found where a local must hold the value, all is followed anew: sums found on the way
     // there were those of one way only.
@@ -730,6 +757,10 @@ bool DimensionPass::RunProgram(ProgramId program) {
   editor_.emplace(module_, program, "absolute_dimensions");
   rewritten_.clear();
   cut_.clear();
+  if (blocks_.count != 0) {
+    Slots entry = EntrySlots();
+    SaveEntry(entry, true);
+  }
   for (std::uint32_t i = 0; i < blocks_.count; ++i) {
     Slots slots = in_[i];
     // Where no way leads, the increments are those of dead text. They are taken from the modes as they stand.

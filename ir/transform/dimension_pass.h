@@ -142,6 +142,7 @@ class DimensionPass {
   [[nodiscard]] bool TriggersModal(ProgramId program, BlockId block) const;
   bool Join(BlockId block, Slots& at, const Slots& from);
   [[nodiscard]] Slots EntrySlots();
+  void SaveEntry(Slots& slots, bool emit);
   /// Slots that need to be followed: without polar words and frames only the axes.
   [[nodiscard]] Slot SlotsUsed() const { return frames_.Any() ? kSlots : polar_ ? kShift : kMaxAxes; }
 
@@ -265,6 +266,7 @@ class DimensionPass {
   std::vector<PlaneWords> plane_words_;  // per block
   std::map<std::uint32_t, double> cut_;  // by block: how much of its length the corner in front of it takes, mm
   std::vector<SlotMask> live_;           // per block: slots whose value on arrival is used
+  SlotMask entry_carried_ = 0;           // slots whose start value arrives in its local somewhere
   std::vector<SlotMask> carry_live_;     // slots whose held value is used behind the block
   std::vector<SlotMask> carried_;        // slots that arrive in their local
   std::vector<Slots> in_;

@@ -310,6 +310,28 @@ TEST_CASE("a position crosses calls in a cell when increments on the other side 
   CHECK_FALSE(sink.HasErrors());
 }
 
+TEST_CASE("a loop that begins with an increment takes the position out of its cell first") {
+  diag::Sink sink;
+  CHECK(Absolute("  @m:1 : axis X = 1\n"
+                 "  @m:2 : call name S calls S\n"
+                 "program S sub @m:0\n"
+                 "  @m:5 label L : axis X incremental = 2\n"
+                 "  @m:6 : jump backward label L = lt!tolerance:bool(R[1], 4)\n"
+                 "  @m:7 : return plain\n",
+                 sink) ==
+        "program M main\n"
+        "axis X absolute = 1\n"
+        "assign AT_X[0] = 1\n"
+        "call name S calls S\n"
+        "program S sub\n"
+        "assign variable POS_X = AT_X[0]\n"
+        "label L axis X absolute = add(variable POS_X, 2)\n"
+        "assign variable POS_X = add(variable POS_X, 2)\n"
+        "jump backward label L = lt!tolerance:bool(R[1], 4)\n"
+        "return plain\n");
+  CHECK_FALSE(sink.HasErrors());
+}
+
 TEST_CASE("a return beside a move: the position is in its cell before the block acts") {
   diag::Sink sink;
   CHECK(Absolute("  @m:1 : axis X = 1\n"

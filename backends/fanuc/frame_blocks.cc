@@ -239,25 +239,26 @@ void FrameMainPrograms(const RaiseInput& input, Translation& out) {
 namespace {
 
 /// Block straight behind the tool call `at` that cuts although X or Z still stands where the way home left it; none if
-/// both are named before, or a jump or call comes first.
+/// both are named before, or a jump or call comes first. A line may name them itself, an arc starts where they stand.
 BlockId CutFromHome(const Module& module, IdRange<BlockId> blocks, BlockId at) {
   constexpr std::uint32_t kBoth = 1U << 0U | 1U << 2U;
   std::uint32_t named = 0;
-  bool cuts = false;  // a path that is not a rapid, as far as the blocks since the call say
+  ir::Motion motion = ir::Motion::kUnknown;  // as far as the blocks since the call say
   for (std::uint32_t i = at.value + 1; i < blocks.begin + blocks.count && named != kBoth; ++i) {
-    const Block& block = module.blocks[BlockId{i}];
+    const std::uint32_t before = named;
     bool moves = false;
-    for (const ir::WordId id : block.words) {
+    for (const ir::WordId id : module.blocks[BlockId{i}].words) {
       const Word& word = module.words[id];
       if (ir::DefaultPhaseOf(word.op) == ir::Phase::kFlow || ir::DefaultPhaseOf(word.op) == ir::Phase::kLast ||
           ir::IsStructureMark(word.op))
         return {};
-      if (word.op == WordOp::kMotion) cuts = static_cast<ir::Motion>(word.index) != ir::Motion::kRapid;
-      if (word.op != WordOp::kAxis) continue;
-      moves = true;
-      named |= 1U << word.index & kBoth;
+      if (word.op == WordOp::kMotion) motion = static_cast<ir::Motion>(word.index);
+      if (word.op == WordOp::kAxis) named |= 1U << word.index & kBoth;
+      moves = moves || word.op == WordOp::kAxis || word.op == WordOp::kCenter || word.op == WordOp::kRadius;
     }
-    if (moves && cuts && named != kBoth) return BlockId{i};
+    const bool line = motion == ir::Motion::kLinear;
+    const bool cuts = motion != ir::Motion::kUnknown && motion != ir::Motion::kRapid;
+    if (moves && cuts && (line ? named : before) != kBoth) return BlockId{i};
   }
   return {};
 }

@@ -238,27 +238,43 @@ void FrameMainPrograms(const RaiseInput& input, Translation& out) {
 
 namespace {
 
-/// Block straight behind the tool call `at` that cuts although X or Z still stands where the way home left it; none if
-/// both are named before, or a jump or call comes first. A line may name them itself, an arc starts where they stand.
-BlockId CutFromHome(const Module& module, IdRange<BlockId> blocks, BlockId at) {
+/// A block behind the tool call `at`, on any way, that cuts although X or Z still stands where the way home left it;
+/// none if both are named before on all ways up to calls and the end. A line may name them itself, an arc starts where
+/// they stand.
+BlockId CutFromHome(const Module& module, const ir::analysis::Cfg& graph, BlockId at) {
   constexpr std::uint32_t kBoth = 1U << 0U | 1U << 2U;
-  std::uint32_t named = 0;
-  ir::Motion motion = ir::Motion::kUnknown;  // as far as the blocks since the call say
-  for (std::uint32_t i = at.value + 1; i < blocks.begin + blocks.count && named != kBoth; ++i) {
-    const std::uint32_t before = named;
+  struct Way {
+    BlockId block;
+    std::uint32_t named;  // axes since the call
+    ir::Motion motion;    // as far as the blocks since the call say
+    auto operator<=>(const Way&) const = default;
+  };
+  std::vector<Way> work;
+  std::set<Way> seen;
+  const auto go_on = [&](BlockId from, std::uint32_t named, ir::Motion motion) {
+    for (const ir::analysis::Edge& edge : graph.Successors(from)) {
+      if (edge.to.Valid() && seen.insert({edge.to, named, motion}).second) work.push_back({edge.to, named, motion});
+    }
+  };
+  go_on(at, 0, ir::Motion::kUnknown);
+  while (!work.empty()) {
+    const Way way = work.back();
+    work.pop_back();
+    std::uint32_t named = way.named;
+    ir::Motion motion = way.motion;
     bool moves = false;
-    for (const ir::WordId id : module.blocks[BlockId{i}].words) {
+    bool calls = false;
+    for (const ir::WordId id : module.blocks[way.block].words) {
       const Word& word = module.words[id];
-      if (ir::DefaultPhaseOf(word.op) == ir::Phase::kFlow || ir::DefaultPhaseOf(word.op) == ir::Phase::kLast ||
-          ir::IsStructureMark(word.op))
-        return {};
+      calls = calls || word.op == WordOp::kCall || word.op == WordOp::kModalCall;
       if (word.op == WordOp::kMotion) motion = static_cast<ir::Motion>(word.index);
       if (word.op == WordOp::kAxis) named |= 1U << word.index & kBoth;
       moves = moves || word.op == WordOp::kAxis || word.op == WordOp::kCenter || word.op == WordOp::kRadius;
     }
     const bool line = motion == ir::Motion::kLinear;
     const bool cuts = motion != ir::Motion::kUnknown && motion != ir::Motion::kRapid;
-    if (moves && cuts && (line ? named : before) != kBoth) return BlockId{i};
+    if (moves && cuts && (line ? named : way.named) != kBoth) return way.block;
+    if (!calls && named != kBoth) go_on(way.block, named, motion);
   }
   return {};
 }
@@ -282,6 +298,7 @@ bool FrameToolChanges(const RaiseInput& input, Translation& out, diag::Sink& sin
   }
   bool any = false;
   bool ok = true;
+  const ir::analysis::FlowGraphs graphs(module);
   for (const ir::ProgramId program : module.programs.Ids()) {
     ProgramEditor editor(module, program, "frame");
     bool first = module.programs[program].kind == ir::ProgramKind::kMain;
@@ -290,7 +307,7 @@ bool FrameToolChanges(const RaiseInput& input, Translation& out, diag::Sink& sin
       if (!std::exchange(first, false)) {
         for (const std::string& line : home) editor.InsertBefore(id, AddedBlock(module, editor, id, line));
         any = true;
-        const BlockId cut = home.empty() ? BlockId{} : CutFromHome(module, module.programs[program].blocks, id);
+        const BlockId cut = home.empty() ? BlockId{} : CutFromHome(module, graphs.Of(program), id);
         if (cut.Valid()) {
           ok = false;
           sink.Report(diag::Code::kNotExpressible, module.RangeOf(module.blocks[cut]),

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <limits>
 #include <map>
 #include <set>
 #include <string>
@@ -287,7 +288,12 @@ bool MapAlarms(const RaiseInput& input, Translation& out, diag::Sink& sink) {
           refuse("an alarm with a computed number");
           continue;
         }
-        const auto number = static_cast<std::uint32_t>(module.exprs[value].number);
+        const double written = module.exprs[value].number;
+        if (!(written >= 0 && written <= std::numeric_limits<std::int32_t>::max())) {
+          refuse(fmt::format("alarm {:.0f}", written));
+          continue;
+        }
+        const auto number = static_cast<std::uint32_t>(written);
         bool shows = word.index == static_cast<std::uint8_t>(ir::AlarmKind::kShows);
         if (word.index == static_cast<std::uint8_t>(ir::AlarmKind::kByNumber)) {
           for (const ir::AlarmRange& range : input.source_machine->shown_alarms)

@@ -125,6 +125,8 @@ bool Lowering::Subprogram(const Context& context) {
     if (!Whole(*start)) return false;
     call.from_block = true;
     if (IsLiteral(*start)) {
+      if (!(NumberOf(*start) >= 1 && NumberOf(*start) <= 99999999))
+        return Fail(Code::kOutOfRange, *start, nullptr, "block numbers 1 to 99999999");
       call.from.kind = ir::TargetKind::kNumber;
       call.from.number = static_cast<std::uint32_t>(NumberOf(*start));
     } else {

@@ -162,6 +162,7 @@ void TokenSource::LexHead() {
     token.digits = token.format.int_digits;
     at_ = end;
     if ((token.format.flags & ir::NumberFormat::kPoint) != 0 || token.number > 99999999) {
+      token.number = 0;  // the head is read all the same
       Fail(Code::kBadNumber, from, end);
       return;
     }

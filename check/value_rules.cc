@@ -32,6 +32,15 @@ class AllRules final : public RangeObserver {
   void Condition(const RangeSite& site, ExprId expr, const Interval& truth) override {
     for (const auto& rule : rules_) rule->Condition(site, expr, truth);
   }
+  void Block(const RangeSite& site, RangeLookup& values) override {
+    for (const auto& rule : rules_) rule->Block(site, values);
+  }
+  void Exit(const RangeSite& site, RangeLookup& values) override {
+    for (const auto& rule : rules_) rule->Exit(site, values);
+  }
+  void StartDone() override {
+    for (const auto& rule : rules_) rule->StartDone();
+  }
   void CountedLoop(const RangeSite& site, const Interval& start, const Interval& end, const Interval& step) override {
     for (const auto& rule : rules_) rule->CountedLoop(site, start, end, step);
   }
@@ -53,6 +62,7 @@ ir::analysis::RangeStatistics CheckValues(const ir::Module& module, const ir::Ma
   rules.push_back(MakeNumberRange(input, findings));
   rules.push_back(MakeArrayIndex(input, findings));
   rules.push_back(MakeLoops(input, findings, graphs));
+  rules.push_back(MakeCallAlarms(input, findings, graphs));
   AllRules all(rules);
   ir::analysis::RangeOptions range_options;
   range_options.declared = options.declared;

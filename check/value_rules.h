@@ -16,6 +16,9 @@ std::unique_ptr<ValueRule> MakeArrayIndex(const ValueRuleInput& input, ValueFind
 /// Loops that never run or never end.
 std::unique_ptr<ValueRule> MakeLoops(const ValueRuleInput& input, ValueFindings& findings,
                                      const ir::analysis::FlowGraphs& graphs);
+/// Calls of cycles that end in an alarm because of what they pass.
+std::unique_ptr<ValueRule> MakeCallAlarms(const ValueRuleInput& input, ValueFindings& findings,
+                                          const ir::analysis::FlowGraphs& graphs);
 
 /// Reports what the rules find. Severity follows certainty: an error where every run that comes there alarms, a warning
 /// where the program lets such values through.

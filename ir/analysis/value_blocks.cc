@@ -1,9 +1,18 @@
 // One block: its words in the order in which a run evaluates them, and the ways out.
+#include <algorithm>
 #include <utility>
 
 #include "ir/analysis/value_flow.h"
 
 namespace ncport::ir::analysis {
+
+bool StopsAlways(const ir::Word& alarm, const Interval& number, const Machine& machine) {
+  if (alarm.index != static_cast<std::uint8_t>(AlarmKind::kByNumber))
+    return alarm.index == static_cast<std::uint8_t>(AlarmKind::kStops);
+  return std::ranges::none_of(machine.shown_alarms, [&](const AlarmRange& shown) {
+    return number.low <= shown.last && number.high >= shown.first;
+  });
+}
 
 void ValueFlow::Step(Context& context, BlockId id, Ways& ways) {
   const Block& block = module_.blocks[id];
@@ -61,7 +70,7 @@ void ValueFlow::Word(Context& context, const Block& /*block*/, const ir::Word& w
       return;
     case WordOp::kAlarm:
       if (word.Extra<ExprId>().Valid()) (void)transfer_.Eval(word.Extra<ExprId>());
-      if (word.index == static_cast<std::uint8_t>(AlarmKind::kStops)) ways.fall.reached = false;
+      if (StopsAlways(word, value, machine_)) ways.fall.reached = false;
       return;
     case WordOp::kWhen: {
       if (mode_ == Mode::kReplay) transfer_.Observer()->Condition(transfer_.Site(), word.value, Truth(value));

@@ -89,6 +89,7 @@ class StartAnalysis final : public CallHandler {
   Context* ContextOf(Context& caller, CallId id, ProgramId program, bool modal);
   void EvalArguments(const Call& call, ProgramId program, ValueTransfer& transfer, ValueState& entry, Context& context);
   void ThroughUnknown(const Call& call, ValueTransfer& transfer);
+  void KeepParameters(Context& context, const std::vector<VariableId>& kept);
   [[nodiscard]] Interval StartOf(const Slot& slot) const;
   [[nodiscard]] Interval ZeroOf(Type type) const;
 
@@ -257,6 +258,22 @@ void StartAnalysis::ThroughUnknown(const Call& call, ValueTransfer& transfer) {
   transfer.Forget(call.form == CallForm::kBlockRange, !call.new_level);
 }
 
+/// The first run begins with what the call gives. What it leaves in its parameters is what the next one begins with: where
+/// that is more, it can be anything.
+void StartAnalysis::KeepParameters(Context& context, const std::vector<VariableId>& kept) {
+  if (!context.exit.reached) return;
+  ValueState entry = context.entry;
+  for (const VariableId parameter : kept) {
+    const std::uint32_t slot = slots_.Of(parameter);
+    entry.cells[slot] = Join(entry.cells[slot], context.exit.cells[slot]);
+  }
+  if (ValueState joined = context.entry; !JoinInto(joined, entry)) return;
+  for (const VariableId parameter : kept)
+    entry.cells[slots_.Of(parameter)] = AllOf(module_.variables[parameter].type, machine_, Interval::kInput);
+  (void)JoinInto(context.entry, entry);
+  Solve(context);
+}
+
 void StartAnalysis::Through(Context& caller, const Call& call, CallId id, bool modal, ValueTransfer& transfer,
                             bool enter) {
   if (call.name_expr.Valid()) (void)transfer.Eval(call.name_expr);
@@ -291,6 +308,7 @@ void StartAnalysis::Through(Context& caller, const Call& call, CallId id, bool m
   for (const Slot& slot : slots_.LocalsOf(program)) entry.cells.push_back(transfer.UnknownOf(slot, 0));
   EvalArguments(call, program, transfer, entry, *context);
   const bool repeats = !(passes.IsPoint() && passes.low == 1);
+  std::vector<VariableId> kept;  // a later run finds these as the one before left them
   if (repeats || modal) {
     // Cells are as the passes before, or the blocks between, left them.
     for (std::uint32_t i = 0; i < shared; ++i) {
@@ -301,15 +319,22 @@ void StartAnalysis::Through(Context& caller, const Call& call, CallId id, bool m
     context->keeps_locals = modal ? machine_.modal_call_keeps_locals : machine_.passes_keep_locals;
     for (const VariableId parameter : module_.programs[program].parameters) {
       const std::uint32_t slot = slots_.Of(parameter);
-      const bool changed = module_.variables[parameter].by_reference ||
-                           ((modal || machine_.passes_keep_locals) && slots_.IsWritten(parameter));
-      if (slot != SlotMap::kNone && changed)
+      const bool changed =
+          module_.variables[parameter].by_reference || (context->keeps_locals && slots_.IsWritten(parameter));
+      if (slot == SlotMap::kNone || !changed) continue;
+      if (module_.variables[parameter].by_reference) {
         entry.cells[slot] = AllOf(module_.variables[parameter].type, machine_, Interval::kInput);
+      } else {
+        kept.push_back(parameter);
+      }
     }
     if (modal) context->shared_references = true;
   }
   const bool grew = enter && JoinInto(context->entry, entry);
-  if (enter && (grew || context->runs == 0) && !context->active) Solve(*context);
+  if (enter && (grew || context->runs == 0) && !context->active) {
+    Solve(*context);
+    KeepParameters(*context, kept);
+  }
   if (modal) return;
   if (!context->exit.reached) {
     state.reached = false;
@@ -363,6 +388,7 @@ RangeStatistics FindValueRanges(const Module& module, const Machine& machine, co
       solved = analysis.Run();
       if (solved) {
         analysis.Replay(observer);
+        observer.StartDone();
         statistics.contexts += analysis.Contexts();
       }
       statistics.steps += analysis.Steps();

@@ -73,6 +73,8 @@ class RangeObserver {
   virtual void Block(const RangeSite&, RangeLookup&) {}
   /// The end of a main program, a return or the end of the text.
   virtual void Exit(const RangeSite&, RangeLookup&) {}
+  /// All contexts of one start were handed out; they end with it.
+  virtual void StartDone() {}
 };
 
 /// What is promised of a parameter whatever the caller ([ranges] of the project).
@@ -92,6 +94,9 @@ struct RangeStatistics {
   std::uint32_t contexts = 0;
   std::uint32_t given_up = 0;  // starts without a result
 };
+
+/// True if an Alarm word with such a number ends the run, whichever of the numbers it is.
+bool StopsAlways(const Word& alarm, const Interval& number, const Machine& machine);
 
 /// `graphs` and `calls` of the same module; names resolved, structure built. Library programs are followed, not
 /// started.

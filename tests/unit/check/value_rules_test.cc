@@ -228,6 +228,26 @@ TEST_CASE("value rules: calls that take values with them and bring them back") {
   CHECK(Set("SUB(3)\nM30\n", "PROC SUB(INT PA)\nR1=1/PA\nIF PA>1\nSUB(PA-1)\nENDIF\nM17\n").empty());
 }
 
+TEST_CASE("value rules: a call of a cycle that ends in an alarm because of what it passes") {
+  constexpr std::string_view kStart = "G17 G0 X0 Y0 Z20 F100\n";
+  const auto mill = [&](std::string_view text) { return Mill(std::string(kStart) + std::string(text) + "M30\n"); };
+  CHECK(mill("CYCLE81(10,0,2,-5)\nCYCLE81(10,0,2,5)\n") == "NC4013 3 error");
+  CHECK(mill("CYCLE81(10,0,2,,5)\nCYCLE81(10,10,2,,5)\n") == "NC4013 3 error");
+  CHECK(mill("CYCLE81(-10,0,2,5)\n").empty());  // upwards
+  // Modal: taken once, at the block that makes it modal.
+  CHECK(mill("MCALL CYCLE81(10,0,2,5)\nX1\nMCALL\n") == "NC4013 2 error");
+  CHECK(mill("MCALL CYCLE81(10,0,2,-5)\nX1\nX2\nMCALL\n").empty());
+  // Values that may be right.
+  CHECK(mill("CYCLE81(10,0,2,R1)\n").empty());
+  CHECK(mill("IF R1>0\nR2=5\nELSE\nR2=-5\nENDIF\nCYCLE81(10,0,2,R2)\n").empty());
+  // The call that gives the value, not the one that hands it on; one that is always wrong is to blame itself.
+  constexpr std::string_view kMain = "G17 G0 X0 Y0 Z20 F100\nDRILL(-5)\nDRILL(5)\nM30\n";
+  CHECK(Set(kMain, "%_N_DRILL_SPF\nPROC DRILL(REAL DEEP)\nCYCLE81(10,0,2,DEEP)\nM17\n") == "NC4013 3 error");
+  CHECK(Set(kMain, "%_N_DRILL_SPF\nPROC DRILL(REAL DEEP)\nCYCLE81(10,0,2,DEEP+90)\nM17\n") == "NC4013 3 error");
+  // A guard of the user does what it is there for.
+  CHECK(Set("SUB(0)\nM30\n", "PROC SUB(REAL PA)\nIF PA<=0\nSETAL(65001)\nENDIF\nR1=PA\nM17\n").empty());
+}
+
 TEST_CASE("value rules: steps grow in line with the program") {
   const auto steps = [](int loops, int calls) {
     std::string text = "DEF INT CNT\n";

@@ -61,6 +61,7 @@ std::string Ranges(std::string_view programs, const Setting& setting = {}) {
   const Module& module = parsed.Value();
   Machine machine;
   machine.for_counter_rounds = setting.counter_rounds;
+  machine.shown_alarms = {{67000, 67999}};
   const FlowGraphs graphs(module);
   const CallGraph calls(module);
   RangeOptions options = setting.options;
@@ -187,6 +188,30 @@ TEST_CASE("value_range: a modal call runs behind blocks of motion") {
   CHECK(Ranges("program M main\n  @- : assign R[1] = 5\n  @- : modal-call name S calls S\n  @- : axis X = 1\n"
                "  @- : feed = R[1]\n"
                "program S sub\n  @- : assign R[1] = 9\n") != "5");
+}
+
+TEST_CASE("value_range: an alarm ends the run where none of its numbers only shows") {
+  const auto behind = [](std::string_view kind, std::string_view number) {
+    return Main("  @- : assign R[1] = 5\n  @- link +3 : if = gt:bool(R[2], 0)\n  @- : assign R[1] = 9\n  @- : alarm " +
+                std::string(kind) + " = " + std::string(number) + "\n  @- link -3 : end-if\n  @- : feed = R[1]\n");
+  };
+  CHECK(behind("stops", "67000") == "5");
+  CHECK(behind("shows", "61000") == "5..9");
+  CHECK(behind("by-number", "61000") == "5");
+  CHECK(behind("by-number", "67000") == "5..9");
+  CHECK(behind("by-number", "R[3]") == "5..9");
+}
+
+TEST_CASE("value_range: a modal call begins with what it is given, and goes on with what it left") {
+  const auto sub = [](std::string_view body) {
+    return Ranges(
+        "program M main\n  @- : modal-call name S calls S (0: 1)\n  @- : axis X = 1\n"
+        "program S sub\n  param P real parameter\n" +
+        std::string(body));
+  };
+  CHECK(sub("  @- : feed = variable:real P\n") == "1");
+  CHECK(sub("  @- : feed = variable:real P\n  @- : assign variable:real P = 1\n") == "1");
+  CHECK(sub("  @- : feed = variable:real P\n  @- : assign variable:real P = 2\n") == "-inf..inf");
 }
 
 TEST_CASE("value_range: a program that nothing calls starts with unknown arguments, narrowed by what is declared") {

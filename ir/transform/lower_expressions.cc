@@ -252,7 +252,12 @@ ExprId Lowering::ValueOfFunction(const Expr& expr) {
       const ExprId low = Simple(Value(argument(0)), "LOW");
       const ExprId high = Simple(Value(argument(1)), "HIGH");
       const ExprId result = NewValue("BOUNDED");
-      Assign(result, Value(argument(2)));
+      const ExprId value = Value(argument(2));
+      // Limits that are swapped are an alarm, and so is the root of a negative number (sinumerik-4.3).
+      const Expr least = module_.exprs[low], most = module_.exprs[high];
+      const bool ordered = least.op == ExprOp::kLiteral && most.op == ExprOp::kLiteral && least.number <= most.number;
+      if (!ordered) Assign(result, make_.Function(Function::kSqrt, {make_.Binary(ExprOp::kSubtract, high, low)}));
+      Assign(result, value);
       If(make_.Binary(ExprOp::kLess, result, low));
       Assign(result, low);
       EndIf();

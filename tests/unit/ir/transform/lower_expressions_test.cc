@@ -35,6 +35,18 @@ TEST_CASE("a comparison of computed fractions becomes a difference against a ban
         "N9 program-end #30\n");
 }
 
+TEST_CASE("limits that may be swapped are an alarm before the value is bounded (sinumerik-4.3)") {
+  const std::string open = Lower(
+      "  @m:1 : assign cell R[1] = call bound(cell:real R[2], cell:real R[3], cell:real R[4])\n"
+      "  @m:9 : program-end #30\n");
+  CHECK(open.find("assign variable:real BOUNDED = call:real sqrt(sub:real(cell:real R[3], cell:real R[2]))\n"
+                  "assign variable:real BOUNDED = cell:real R[4]\n") != std::string::npos);
+  const std::string known = Lower(
+      "  @m:1 : assign cell R[1] = call bound(1:int, 5:int, cell:real R[4])\n"
+      "  @m:9 : program-end #30\n");
+  CHECK(known.find("sqrt") == std::string::npos);
+}
+
 TEST_CASE("comparisons that cannot nearly hold stay plain") {
   // Counters, written numbers (R5 is what an operator writes), anything beside 0.
   const std::string all = Lower(

@@ -108,11 +108,6 @@ void Chain::Add(ExprId id, bool sense, std::int32_t label) {
         Add(ExprId{expr.b}, sense, label);
         return Bind(behind);
       }
-    case ExprOp::kXor: {
-      steps_.push_back(
-          {make_.Binary(sense ? ExprOp::kNotEqual : ExprOp::kEqual, ExprId{expr.a}, ExprId{expr.b}), label});
-      return;
-    }
     case ExprOp::kLiteral:
       if ((expr.number != 0) == sense) steps_.push_back({{}, label});
       return;

@@ -46,7 +46,8 @@ std::string CheckTrace(const Job& job);
 /// All that is said of a program: trace, IR or nothing, then the findings.
 std::string Say(const Job& job, Shown shown);
 
-/// A translation, or a flat program, that is read back and compared.
+/// A translation, or a flat program, that is read back and compared. One that a golden case says is refused: what is
+/// said is compared.
 class Subject {
  public:
   explicit Subject(Job job) : job_(std::move(job)) {}
@@ -68,7 +69,7 @@ class Subject {
                       const backends::Translation& translation);
 
   Job job_;
-  bool flat_ = false, compared_ = false;
+  bool flat_ = false, compared_ = false, refused_ = false;
   std::unique_ptr<Context> context_;
   app::ProgramSet set_;
   ir::Machine machine_;

@@ -155,4 +155,14 @@ Result<exec::RunOptions> RunOptionsFor(Context& context, const ProgramSet& set, 
   return options;
 }
 
+void TakeCall(const exec::RunOptions& run, ProgramSet& set, dialects::Config& config) {
+  if (!run.is_call) return;
+  ir::Program& program = set.module.programs[run.entry];
+  program.kind = ir::ProgramKind::kSub;
+  for (const exec::EntryArgument& argument : run.arguments) {
+    if (argument.letter != 0 && !argument.value.IsVacant())
+      config.given.push_back(fmt::format("{}.{}", set.module.View(program.name), argument.letter));
+  }
+}
+
 }  // namespace ncport::app

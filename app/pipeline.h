@@ -5,6 +5,7 @@
 
 #include "app/ncport.h"
 #include "base/result.h"
+#include "dialects/config.h"
 #include "dialects/profile.h"
 #include "exec/event.h"
 #include "exec/run.h"
@@ -40,5 +41,9 @@ Status ReadSet(Context& context, std::vector<Input> inputs, const ReadSettings& 
 
 /// Entry, arguments, start values of a run. Fails after findings.
 Result<exec::RunOptions> RunOptionsFor(Context& context, const ProgramSet& set, const RunSettings& settings);
+
+/// For a translation of a program that --call names: a file whose programs carry no mark of their kind has a subprogram
+/// there, and its callers give the letters of the call.
+void TakeCall(const exec::RunOptions& run, ProgramSet& set, dialects::Config& config);
 
 }  // namespace ncport::app

@@ -83,15 +83,7 @@ Status Translate(Context& context, std::vector<Input> inputs, const TranslateOpt
   const ir::Machine machine = dialects::MachineFor(set.profile);
   dialects::Config config = options.config != nullptr ? options.config->For(target_name) : dialects::Config{};
   NCPORT_TRY_ASSIGN(const exec::RunOptions run, app::RunOptionsFor(context, set, options));
-  // A file whose programs carry no mark of their kind: the one that is called is a subprogram.
-  if (run.is_call) {
-    const ir::Program& program = set.module.programs[run.entry];
-    set.module.programs[run.entry].kind = ir::ProgramKind::kSub;
-    for (const exec::EntryArgument& argument : run.arguments) {
-      if (argument.letter != 0 && !argument.value.IsVacant())
-        config.given.push_back(fmt::format("{}.{}", set.module.View(program.name), argument.letter));
-    }
-  }
+  app::TakeCall(run, set, config);
   backends::Translation translation;
   const ir::Module source = set.module;
   const backends::TranslateInput input{&source, &set.profile, &machine, &target, &config};

@@ -284,7 +284,8 @@ std::string Subject::Prepare() {
   machine_ = dialects::MachineFor(set_.profile);
   const auto run = app::RunOptionsFor(*context_, set_, settings);
   if (!run.Ok()) return said();
-  entry_ = run->entry;
+  run_ = *run;
+  app::TakeCall(run_, set_, config_);
   if (flat_) {
     Context context;
     TraceOptions options;
@@ -359,10 +360,8 @@ std::string Subject::Compare(const std::string& text, const std::vector<backends
   setup.max_blocks = kMostBlocks;
   std::vector<prove::Input> inputs;
   const std::size_t before = context_->findings.All().size();
-  exec::RunOptions run;
-  run.entry = entry_;
   const prove::Verification verification =
-      app::CompareTranslation(*context_, set_, machine_, run, target_, translation, files, &config_, setup, inputs);
+      app::CompareTranslation(*context_, set_, machine_, run_, target_, translation, files, &config_, setup, inputs);
   if (verification.difference) return "difference: " + verification.difference->what;
   if (!verification.compared && compared_) {
     const auto& all = context_->findings.All();

@@ -73,7 +73,7 @@ class Subject {
   std::unique_ptr<Context> context_;
   app::ProgramSet set_;
   ir::Machine machine_;
-  ir::ProgramId entry_;
+  exec::RunOptions run_;
   dialects::Profile target_;
   dialects::Config all_config_, config_;
   std::string text_;

@@ -109,11 +109,21 @@ void ExprPrinter::PrintFunction(const Expr& expr, NumberPlace place) {
   const dialects::fanuc::FunctionRow* row = dialects::fanuc::FindFunction(function);
   NCPORT_CHECK(row != nullptr, "function {} reached the printer", ir::NameOf(function));
   out_.Append(row->text);
+  const NumberPlace inside = place == NumberPlace::kInteger ? NumberPlace::kMacro : place;
   const auto argument = [&](std::uint32_t i) {
     out_.Append('[');
-    Print(module_.Item(expr.b + i), 0, place == NumberPlace::kInteger ? NumberPlace::kMacro : place);
+    Print(module_.Item(expr.b + i), 0, inside);
     out_.Append(']');
   };
+  if (row->form == dialects::fanuc::FunctionForm::kList) {
+    // POW[a,b] (fanuc-4.3)
+    out_.Append('[');
+    for (std::uint32_t i = 0; i < expr.count; ++i) {
+      if (i != 0) out_.Append(',');
+      Print(module_.Item(expr.b + i), 0, inside);
+    }
+    return out_.Append(']');
+  }
   argument(0);
   if (expr.count == 2 && TwoArguments(expr)) {
     out_.Append('/');

@@ -20,6 +20,7 @@
 #include "backends/fanuc/mill_tools.h"
 #include "backends/fanuc/modal_calls.h"
 #include "backends/fanuc/raise_words.h"
+#include "backends/fanuc/refuse_functions.h"
 #include "backends/fanuc/rotations.h"
 #include "backends/fanuc/shifts.h"
 #include "backends/fanuc/source_meanings.h"
@@ -467,6 +468,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   }
   LimitMWords(input, out);  // behind all that makes blocks
   ok = CheckLegal(input, out, sink) && ok && framed;
+  ok = RefuseFunctions(input, module, sink) && ok;
   ok = ok && CheckDigits(input, out, sink);
   if (ok && profile.IsMazakLathe()) ok = CheckMazakLathe(input, out, sink);
   return ok;

@@ -176,7 +176,8 @@ void Hunt::Writers(bool quick) {
     } else {
       ++useless;
       if (job.name.starts_with("programs/")) {
-        results_.push_back({job.name + " to " + job.to, "survived: " + OneLine(useless_because)});
+        results_.push_back(
+            {job.name + (job.print ? " printed" : " to " + job.to), "survived: " + OneLine(useless_because)});
       }
     }
   }

@@ -27,6 +27,8 @@ struct Job {
   std::string expected;  // text of a trace; read only
   bool alarms = false;   // the expected trace ends in an alarm
   bool golden = false;   // the golden cases compare what is written word by word
+  bool refused = false;  // the target refuses it, for reasons that are named
+  bool print = false;    // printed in its own language from what it means, and read back
 };
 
 /// What a golden case of reading shows.
@@ -46,8 +48,7 @@ std::string CheckTrace(const Job& job);
 /// All that is said of a program: trace, IR or nothing, then the findings.
 std::string Say(const Job& job, Shown shown);
 
-/// A translation, or a flat program, that is read back and compared. One that a golden case says is refused: what is
-/// said is compared.
+/// A translation, a flat program or a program printed anew, that is read back and compared; or a refusal.
 class Subject {
  public:
   explicit Subject(Job job) : job_(std::move(job)) {}
@@ -65,11 +66,14 @@ class Subject {
 
  private:
   std::string Write(std::string& text, std::vector<backends::OutputFile>& files, backends::Translation& translation);
+  std::string Refusal(const diag::Sink& sink) const;
+  /// The printed program, read and printed once more: another one than without a fault, or empty.
+  std::string ReadAndPrint(const std::string& text);
   std::string Compare(const std::string& text, const std::vector<backends::OutputFile>& files,
                       const backends::Translation& translation);
 
   Job job_;
-  bool flat_ = false, compared_ = false, refused_ = false;
+  bool flat_ = false, compared_ = false, text_alone_ = false;
   std::unique_ptr<Context> context_;
   app::ProgramSet set_;
   ir::Machine machine_;
@@ -78,6 +82,7 @@ class Subject {
   dialects::Config all_config_, config_;
   std::string text_;
   std::string source_trace_;  // flat
+  std::string refusal_;       // all that is said of a program that is refused
 };
 
 }  // namespace ncport::tests::faults

@@ -3,6 +3,7 @@
 //   - those of FAULTS, written by hand: its head says how;
 //   - generated ones: each sign, factor, comparison, mode and sense that the rules below find in the text.
 // A fault by hand whose place is not there, or is there twice, is an error: its line is stale.
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -88,6 +89,11 @@ std::string ReadAll(const fs::path& path) {
 std::string Trim(const std::string& text) {
   const std::size_t first = text.find_first_not_of(' ');
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(' ') - first + 1);
+}
+
+std::string OneLine(std::string text) {
+  std::ranges::replace(text, '\n', ' ');
+  return text;
 }
 
 std::vector<HandFault> ReadFaults(const fs::path& path) {
@@ -244,7 +250,8 @@ class Seeder {
         made = "if (::ncport::tests::faults::On(" + Number(fault->name) + ")) {" + fault->faulty + "} else {" +
                fault->normal + "}";
       } else {
-        made = Seam("(" + fault->normal + ")", "(" + fault->faulty + ")", fault->name);
+        // On one line, so that no generated fault is put into what stands there only while this one is on.
+        made = Seam("(" + OneLine(fault->normal) + ")", "(" + OneLine(fault->faulty) + ")", fault->name);
       }
       text.replace(at, fault->normal.size(), made);
     }

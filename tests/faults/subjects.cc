@@ -327,6 +327,8 @@ std::string Subject::Prepare() {
   taken = Now().taken;
   if (job_.refused != !refused.empty() && !job_.golden) return refused.empty() ? "is not refused" : refused;
   refusal_ = refused;
+  told_ = now_told_;
+  maps_ = now_maps_;
   if (!refused.empty()) return {};
   compared_ = true;
   std::string found = Compare(text_, files, translation);
@@ -340,6 +342,29 @@ std::string Subject::Prepare() {
 /// What is said of a refused program: the first error, or all of it where that is what the program is for.
 std::string Subject::Refusal(const diag::Sink& sink) const {
   return "refused: " + (job_.golden || job_.refused ? AllSaid(sink) : FirstError(sink));
+}
+
+void Subject::Tell(const diag::Sink& sink, const backends::Translation& translation) {
+  now_told_.clear();
+  now_maps_.clear();
+  const auto map = [&](std::initializer_list<std::uint64_t> numbers) {
+    for (const std::uint64_t number : numbers) now_maps_ += std::to_string(number) + " ";
+    now_maps_ += '\n';
+  };
+  for (const backends::ToolUse& use : translation.tools)
+    map({use.source_tool, use.source_edge, use.source_radius, use.target_tool, use.target_offset, use.target_suffix,
+         use.target_radius, use.offset_only ? 1U : 0U});
+  for (const backends::OffsetUse& use : translation.offsets)
+    map({use.source, use.source_extension, use.target, use.target_extension});
+  for (const backends::AlarmUse& use : translation.alarms) map({use.source, use.target});
+  for (const backends::AuxUse& use : translation.aux) map({use.source, use.target.value_or(9999)});
+  if (!job_.golden) return;
+  // The head of the output and what stands in stderr.
+  for (const auto* lines : {&translation.added, &translation.required, &translation.assumptions}) {
+    for (const std::string& line : *lines) now_told_ += line + "\n";
+  }
+  for (const diag::Diagnostic& finding : sink.All())
+    now_told_ += std::to_string(finding.at.line) + " " + finding.message + "\n";
 }
 
 std::string Subject::ReadAndPrint(const std::string& text) {
@@ -370,11 +395,13 @@ std::string Subject::Write(std::string& text, std::vector<backends::OutputFile>&
     options.config = &all_config_;
     OutputSink output(text);
     if (!Flatten(context, InputsOf(job_), options, output).Ok()) return Refusal(context.findings);
+    Tell(context.findings, translation);
     return {};
   }
   const backends::TranslateInput input{&set_.module, &set_.profile, &machine_, &target_, &config_};
   if (!backends::Raise(input, translation, context.findings)) return Refusal(context.findings);
   files = backends::Print(target_, translation, {});
+  Tell(context.findings, translation);
   for (const backends::OutputFile& file : files) text += file.name + "\n" + file.text;
   // Heads of programs name the variables.
   for (const ir::transform::CellMapping& cell : translation.cells) text += cell.target + " = " + cell.source + "\n";
@@ -433,8 +460,8 @@ std::string Subject::Judge(bool& changed) {
   if (refused != refusal_)
     return refused.empty() ? "is not refused" : (refusal_.empty() ? "" : "for other reasons ") + refused;
   if (!refused.empty()) return {};
-  changed = text != text_;
-  return changed && !text_alone_ ? Compare(text, files, translation) : "";
+  changed = text != text_ || now_told_ != told_;
+  return (changed || now_maps_ != maps_) && !text_alone_ ? Compare(text, files, translation) : "";
 }
 
 }  // namespace ncport::tests::faults

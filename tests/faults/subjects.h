@@ -67,6 +67,7 @@ class Subject {
  private:
   std::string Write(std::string& text, std::vector<backends::OutputFile>& files, backends::Translation& translation);
   std::string Refusal(const diag::Sink& sink) const;
+  void Tell(const diag::Sink& sink, const backends::Translation& translation);
   /// The printed program, read and printed once more: another one than without a fault, or empty.
   std::string ReadAndPrint(const std::string& text);
   std::string Compare(const std::string& text, const std::vector<backends::OutputFile>& files,
@@ -83,6 +84,8 @@ class Subject {
   std::string text_;
   std::string source_trace_;  // flat
   std::string refusal_;       // all that is said of a program that is refused
+  std::string told_, maps_;   // what a golden case shows beside the text; what the comparison maps
+  std::string now_told_, now_maps_;
 };
 
 }  // namespace ncport::tests::faults

@@ -35,19 +35,13 @@ class Pass {
     const Block block = module_.blocks[id];
     for (const ir::WordId word_id : block.words) {
       const Word word = module_.words[word_id];
+      if (word.op == WordOp::kCall || word.op == WordOp::kModalCall) LowerCall(word.Extra<ir::CallId>(), id);
       if (!word.value.Valid() || module_.exprs[word.value].type == ir::Type::kString) continue;
       // The condition of WHILE is computed in each pass: StructureToJumps keeps plain ones only.
       if (word.op == WordOp::kWhile || word.op == WordOp::kAlarm) continue;
       const bool in_word = word.op != WordOp::kAssign;
       const ExprId value = Fit(word.value, in_word ? levels_ - 1 : levels_, id);
       module_.words[word_id].value = value;
-      if (word.op == WordOp::kCall && word.Extra<ir::CallId>().Valid()) {
-        for (const ir::ArgId arg : module_.calls[word.Extra<ir::CallId>()].args) {
-          if (!module_.args[arg].value.Valid()) continue;
-          const ExprId fitted = Fit(module_.args[arg].value, levels_ - 1, id);
-          module_.args[arg].value = fitted;
-        }
-      }
     }
     if (held_.empty()) return;
     Block& first = held_.front();
@@ -55,6 +49,16 @@ class Pass {
     first.number_digits = block.number_digits;
     module_.blocks[id].number = Block::kNoNumber;
     for (const Block& made : held_) editor_.InsertBefore(id, made);
+  }
+
+  /// Arguments stand in brackets, as the values of words do.
+  void LowerCall(ir::CallId call, BlockId id) {
+    if (!call.Valid()) return;
+    for (const ir::ArgId arg : module_.calls[call].args) {
+      if (!module_.args[arg].value.Valid()) continue;
+      const ExprId fitted = Fit(module_.args[arg].value, levels_ - 1, id);
+      module_.args[arg].value = fitted;
+    }
   }
 
   /// The expression with its deepest parts held in locals until it fits.

@@ -154,7 +154,9 @@ Interval Apply(Function function, const Interval* args, std::size_t count, const
                        std::isinf(a.high) ? a.high : ops::RoundAway(a.high));
         break;
       case Function::kRoundToIncrement:
-        result = {a.low - machine.increment, a.high + machine.increment, 0};
+        // The factor that counts the increments is 1e-11 of itself too large.
+        result = {a.low - machine.increment - std::fabs(a.low) * 1e-10,
+                  a.high + machine.increment + std::fabs(a.high) * 1e-10, 0};
         break;
       case Function::kMinimum:
         result = {std::min(a.low, args[1].low), std::min(a.high, args[1].high),

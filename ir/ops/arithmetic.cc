@@ -50,11 +50,16 @@ double Round(double value) { return std::round(value) + 0.0; }
 
 double RoundAway(double value) { return (value < 0 ? std::floor(value) : std::ceil(value)) + 0.0; }
 
+IncrementSteps StepsOf(double increment) {
+  const double whole = std::round(1 / increment);
+  const bool decimal = increment < 1 && std::fabs(1 / whole - increment) <= 1e-12 * increment;
+  const double per = decimal ? whole : 1 / increment;
+  return {per, std::round((per + std::fmax(per * 1e-11, 1e-8)) * 1e8) / 1e8};
+}
+
 double RoundToIncrement(double value, double increment) {
-  // A quotient that is a half but for binary noise counts as a half.
-  const double quotient = value / increment;
-  const double cleaned = Significant(quotient, 15);
-  return MultipleOf(std::round(cleaned), increment) + 0.0;
+  const IncrementSteps steps = StepsOf(increment);
+  return std::round(value * steps.factor) / steps.per + 0.0;
 }
 
 double TruncateToIncrement(double value, double increment) {

@@ -40,7 +40,16 @@ double Round(double value);
 /// Away from zero to the next whole number.
 double RoundAway(double value);
 /// To the nearest multiple of `increment` (> 0), halves away from zero; the result has no binary noise of the multiple.
+/// A half that noise left a little short, as in -21.63/4+0.4, is a half: Round(value * StepsOf(increment).factor) /
+/// per.
 double RoundToIncrement(double value, double increment);
+/// How many increments one unit holds, and the factor that counts them: larger by 1e-11 of itself or 1e-8, so that it
+/// is written with eight decimals (sinumerik-2.1) and pushes what is a half but for noise over it, on both sides of 0.
+struct IncrementSteps {
+  double per = 1;
+  double factor = 1;
+};
+IncrementSteps StepsOf(double increment);
 /// As RoundToIncrement, but cuts toward zero. A value that is a multiple but for binary noise keeps it.
 double TruncateToIncrement(double value, double increment);
 

@@ -1,8 +1,11 @@
 #include "ir/transform/adapt_expressions.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "ir/builder.h"
+#include "ir/ops/arithmetic.h"
 #include "ir/transform/rewrite_exprs.h"
 
 namespace ncport::ir::transform {
@@ -124,9 +127,9 @@ void AdaptExpressions(Module& module, ProgramId program, const AdaptExpressionsC
 
 ExprId RoundedTo(Module& module, ExprId value, double increment) {
   ExprBuilder make(module);
-  const ExprId steps = make.Literal(std::round(1 / increment), Type::kInt);
-  return make.Binary(ExprOp::kDivide, make.Function(Function::kRound, {make.Binary(ExprOp::kMultiply, value, steps)}),
-                     steps);
+  const ops::IncrementSteps steps = ops::StepsOf(increment);
+  const ExprId counted = make.Binary(ExprOp::kMultiply, value, make.Number(fmt::format("{}", steps.factor)));
+  return make.Binary(ExprOp::kDivide, make.Function(Function::kRound, {counted}), make.Literal(steps.per, Type::kInt));
 }
 
 }  // namespace ncport::ir::transform

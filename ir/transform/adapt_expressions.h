@@ -22,7 +22,8 @@ struct AdaptExpressionsConfig {
 /// Changes one program.
 void AdaptExpressions(Module& module, ProgramId program, const AdaptExpressionsConfig& config);
 
-/// `value` rounded to the nearest multiple of `increment`: ROUND(value*1000)/1000.
+/// `value` rounded to the nearest multiple of `increment`, as ops::RoundToIncrement does it to the last bit:
+/// ROUND(value*1000.00000001)/1000.
 ExprId RoundedTo(Module& module, ExprId value, double increment);
 
 }  // namespace ncport::ir::transform

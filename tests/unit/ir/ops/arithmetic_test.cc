@@ -57,6 +57,13 @@ TEST_CASE("rounding") {
   CHECK(RoundToIncrement(2.0005, 0.001) == 2.001);
   CHECK(RoundToIncrement(-5.00098, 0.001) == -5.001);
   CHECK(RoundToIncrement(1.005, 0.01) == 1.01);  // the double is a little less than the half
+  // -5.0075 as binary sums give it is a little above the half; both signs go away from zero.
+  CHECK(RoundToIncrement(-21.63 / 4 + 0.4, 0.001) == -5.008);
+  CHECK(RoundToIncrement(21.63 / 4 - 0.4, 0.001) == 5.008);
+  CHECK(RoundToIncrement(100.0075 - 99.5, 0.001) == 0.508);
+  CHECK(RoundToIncrement(0.00125, 0.001 / 10) == 0.0013);
+  CHECK(RoundToIncrement(7.4999, 5) == 5);
+  CHECK(RoundToIncrement(0.0004999, 0.001) == 0);
   CHECK(TruncateToIncrement(2.0009, 0.001) == 2.0);
   CHECK(TruncateToIncrement(0.3, 0.1) == 0.3);
   CHECK(TruncateToIncrement(-2.0009, 0.001) == -2.0);

@@ -38,8 +38,8 @@ TEST_CASE("a single absolute word stays; increments would drift and are rounded"
                 "  @m:3 : distance incremental; axis X = R[1] {rounds}; axis Y absolute = R[1] {rounds}\n",
                 sink) ==
         "axis X = R[1]\n"
-        "axis X incremental = div(call round(mul(R[1], 1000)), 1000)\n"
-        "distance incremental; axis X = div(call round(mul(R[1], 1000)), 1000); axis Y absolute = R[1]\n");
+        "axis X incremental = div(call round(mul(R[1], 1000.00000001)), 1000)\n"
+        "distance incremental; axis X = div(call round(mul(R[1], 1000.00000001)), 1000); axis Y absolute = R[1]\n");
   CHECK(sink.Empty());
 }
 
@@ -48,8 +48,8 @@ TEST_CASE("the least increment follows the unit; degrees have none") {
   CHECK(Rounded("  @m:1 : units inch; axis X incremental = R[1] {rounds}\n"
                 "  @m:2 : axis C incremental = R[1] {rounds}\n",
                 sink) ==
-        "units inch; axis X incremental = div(call round(mul(R[1], 10000)), 10000)\n"
-        "axis C incremental = div(call round(mul(R[1], 1000)), 1000)\n");
+        "units inch; axis X incremental = div(call round(mul(R[1], 10000.0000001)), 10000)\n"
+        "axis C incremental = div(call round(mul(R[1], 1000.00000001)), 1000)\n");
   CHECK(sink.Empty());
 }
 
@@ -59,17 +59,17 @@ TEST_CASE("where an arc has an end point, absolute words, centres and radii are 
                 "  @m:2 : motion arc-cw; axis X = R[2] {rounds}; center I = R[3] {rounds}\n"
                 "  @m:3 : axis X = 5; radius = R[4] {rounds}\n",
                 sink) ==
-        "axis X = div(call round(mul(R[1], 1000)), 1000)\n"
-        "motion arc-cw; axis X = div(call round(mul(R[2], 1000)), 1000); "
-        "center I = div(call round(mul(R[3], 1000)), 1000)\n"
-        "axis X = 5; radius = div(call round(mul(R[4], 1000)), 1000)\n");
+        "axis X = div(call round(mul(R[1], 1000.00000001)), 1000)\n"
+        "motion arc-cw; axis X = div(call round(mul(R[2], 1000.00000001)), 1000); "
+        "center I = div(call round(mul(R[3], 1000.00000001)), 1000)\n"
+        "axis X = 5; radius = div(call round(mul(R[4], 1000.00000001)), 1000)\n");
   CHECK(sink.Empty());
 }
 
 TEST_CASE("a motion that is not known may be an arc") {
   diag::Sink sink;
   CHECK(Rounded("  @m:1 : axis X = R[1] {rounds}\n", sink, {.motion = Motion::kUnknown}) ==
-        "axis X = div(call round(mul(R[1], 1000)), 1000)\n");
+        "axis X = div(call round(mul(R[1], 1000.00000001)), 1000)\n");
   CHECK(sink.Empty());
 }
 
@@ -78,7 +78,7 @@ TEST_CASE("positions that the program reads back are rounded") {
   CHECK(Rounded("  @m:1 : axis X = R[1] {rounds}\n"
                 "  @m:2 : assign R[2] = system $P_EP(axis-name X)\n",
                 sink) ==
-        "axis X = div(call round(mul(R[1], 1000)), 1000)\n"
+        "axis X = div(call round(mul(R[1], 1000.00000001)), 1000)\n"
         "assign R[2] = system $P_EP(axis-name X)\n");
   CHECK(sink.Empty());
 }
@@ -118,7 +118,7 @@ TEST_CASE("an increment of a unit that is not known, or that the control cuts, i
 TEST_CASE("under a distance mode that is not known a word is rounded as the control does: that is right in both") {
   diag::Sink sink;
   CHECK(Rounded("  @m:1 : axis X = R[1] {rounds}\n", sink, {.distance = Distance::kUnknown}) ==
-        "axis X = div(call round(mul(R[1], 1000)), 1000)\n");
+        "axis X = div(call round(mul(R[1], 1000.00000001)), 1000)\n");
   CHECK(sink.Empty());
 }
 

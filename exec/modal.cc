@@ -259,7 +259,12 @@ void Kinematics::Restore(const ir::ModalState& modal, const Frame& frame) {
   if (now.feed_mode != modal.feed_mode)
     channel_.feed_known = channel_.feed_known && channel_.feed_mode == modal.feed_mode;
   if (modal.work_offset.known) SetWorkOffset(modal.work_offset);
-  if (modal.path != ir::PathMode::kUnknown) SetPath(modal.path);
+  if (modal.path != now.path) {
+    // Also back to the mode that no word of the program selected.
+    Event& event = emitter_.Begin(EventKind::kPath);
+    event.path = modal.path;
+    emitter_.Send(event);
+  }
   channel_.modal = modal;
   ShowComp();
 }

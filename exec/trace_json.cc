@@ -160,7 +160,9 @@ void Details(Object& object, const Event& event, const ir::Module& module) {
       if (event.extension != 0) object.Number("extension", event.extension);
       return;
     case EventKind::kPath:
-      return object.Text("mode", event.path == ir::PathMode::kContinuous ? "CONTINUOUS" : "EXACT");
+      return object.Text("mode", event.path == ir::PathMode::kContinuous ? "CONTINUOUS"
+                                 : event.path == ir::PathMode::kExact    ? "EXACT"
+                                                                         : "UNKNOWN");
     case EventKind::kAux:
       object.Text("address", event.text.empty() ? "M" : event.text);
       object.Number("number", event.number);

@@ -200,7 +200,9 @@ void Line(TextBuffer& buffer, const Event& event, const ir::Module& module) {
     case EventKind::kWorkOffset:
       return WorkOffset(buffer, event);
     case EventKind::kPath:
-      return buffer.Append(event.path == ir::PathMode::kContinuous ? "PATH CONTINUOUS" : "PATH EXACT");
+      return buffer.Append(event.path == ir::PathMode::kContinuous ? "PATH CONTINUOUS"
+                           : event.path == ir::PathMode::kExact    ? "PATH EXACT"
+                                                                   : "PATH UNKNOWN");
     case EventKind::kAux:
       return Aux(buffer, event);
     case EventKind::kMessage:

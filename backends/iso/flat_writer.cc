@@ -131,8 +131,10 @@ void FlatWriter::Dispatch(const exec::Event& event) {
     case EventKind::kWorkOffset:
       return WorkOffset(event);
     case EventKind::kPath:
-      CommentLine("PATH", event.path == ir::PathMode::kExact ? "EXACT" : "CONTINUOUS");
-      Refuse(diag::Code::kListedLoss, event.path == ir::PathMode::kExact ? "exact stop" : "continuous path mode");
+      CommentLine("PATH", event.path == ir::PathMode::kExact        ? "EXACT"
+                          : event.path == ir::PathMode::kContinuous ? "CONTINUOUS"
+                                                                    : "UNKNOWN");
+      Refuse(diag::Code::kListedLoss, event.path == ir::PathMode::kContinuous ? "continuous path mode" : "exact stop");
       return;
     case EventKind::kAux:
       return Aux(event);

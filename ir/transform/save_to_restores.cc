@@ -8,6 +8,7 @@
 #include "ir/analysis/call_graph.h"
 #include "ir/analysis/cfg.h"
 #include "ir/analysis/modal_state.h"
+#include "ir/builder.h"
 #include "ir/transform/mode_use.h"
 #include "ir/transform/program_editor.h"
 
@@ -31,11 +32,15 @@ constexpr Group kGroups[] = {
     {WordOp::kDiameter, "the diameter mode", [](const ModalState& s) { return static_cast<std::uint8_t>(s.diameter); }},
     {WordOp::kPathMode, "the path mode", [](const ModalState& s) { return static_cast<std::uint8_t>(s.path); }},
 };
+/// Bit of the work offset, whose value is a number, behind those of kGroups.
+constexpr std::uint32_t kOffsetBit = 1U << std::size(kGroups);
 
 class Pass {
  public:
   Pass(Module& module, const Machine& source, const ModalState& sub_entry, diag::Sink& sink)
       : module_(module),
+        source_(source),
+        sub_entry_(sub_entry),
         sink_(sink),
         graphs_(module),
         calls_(module),
@@ -47,6 +52,7 @@ class Pass {
     for (const Program& program : module_.programs.All()) any = any || program.saves_modal_state;
     if (!any) return true;
     FindModal();
+    const bool start_path = PutsStartPathBack();
     for (const ProgramId program : module_.programs.Ids()) {
       Restore(program);
       if (inside_[program.value]) RestoreInside(program);
@@ -54,11 +60,13 @@ class Pass {
     // Those that put back what they found themselves still do: later passes may rely on it.
     for (const ProgramId program : module_.programs.Ids())
       module_.programs[program].saves_modal_state = inside_[program.value];
+    if (start_path) NameStartPath();
     return ok_;
   }
 
  private:
-  /// Bit per row of kGroups: groups that a program, or one below it that does not put them back, has words for.
+  /// Bit per row of kGroups, and kOffsetBit: groups that a program, or one below it that does not put them back, has
+  /// words for.
   void FindChanges() {
     changes_.assign(module_.programs.Size(), 0);
     for (bool changed = true; changed;) {
@@ -73,6 +81,7 @@ class Pass {
             }
             // Constant surface speed changes the feed mode on some controls.
             if (word.op == WordOp::kSpeedMode) now |= 1U << 4U;
+            if (word.op == WordOp::kWorkOffset) now |= kOffsetBit;
             if (word.op == WordOp::kComputedG || word.op == WordOp::kVerbatim) now = ~0U;
             if (word.op != WordOp::kCall && word.op != WordOp::kModalCall) continue;
             const auto call = word.Extra<CallId>();
@@ -110,22 +119,82 @@ class Pass {
         continue;
       const std::uint8_t value = kGroups[group].value(before);
       if (value == 0) {
-        // A group that was never set has nothing to go back to only if nothing relies on it: that is not known here.
-        if (kGroups[group].op == WordOp::kPathMode) continue;
-        ok_ = false;
-        sink_.Report(diag::Code::kUnknownModalState, at, kGroups[group].name,
-                     "the called program puts it back (SAVE), and what it was is not one value here");
+        Unknown(kGroups[group].name, at);
         continue;
       }
       if (kGroups[group].op == WordOp::kMotion && LeavesAs(callee, group, value)) continue;
-      Word made;
-      made.op = kGroups[group].op;
-      made.index = value;
-      made.phase = DefaultPhaseOf(made.op);
-      made.flags = Word::kAdded;
+      words.push_back(WordOf(kGroups[group].op, value));
+    }
+    if ((changes_[callee.value] & kOffsetBit) == 0) return words;
+    if (before.work_offset.known) {
+      Word made = WordOf(WordOp::kWorkOffset, 0);
+      made.extra = before.work_offset.number;
+      if (before.work_offset.extension != 0)
+        made.value = ExprBuilder(module_).Literal(before.work_offset.extension, Type::kInt);
       words.push_back(made);
+    } else if (!call.Valid() || ModeIsUsedBehind(module_, graphs_, caller, call, WordOp::kWorkOffset)) {
+      Unknown("the work offset", at);
     }
     return words;
+  }
+
+  /// The output says of a path word that the translation chose it: the source may leave it to the machine.
+  static void MarkPath(Block& block, const std::vector<Word>& words) {
+    for (const Word& word : words) {
+      if (word.op == WordOp::kPathMode) block.flags |= Block::kAdded;
+    }
+  }
+
+  static Word WordOf(WordOp op, std::uint8_t index) {
+    Word made;
+    made.op = op;
+    made.index = index;
+    made.phase = DefaultPhaseOf(op);
+    made.flags = Word::kAdded;
+    return made;
+  }
+
+  void Unknown(std::string_view group, const SourceRange& at) {
+    ok_ = false;
+    sink_.Report(diag::Code::kUnknownModalState, at, group,
+                 "the called program puts it back (SAVE), and what it was is not one value here");
+  }
+
+  /// True if a program puts back a path mode that no word chose: the one that the machine starts with.
+  [[nodiscard]] bool PutsStartPathBack() const {
+    constexpr std::uint32_t kPathBit = 1U << (std::size(kGroups) - 1);
+    static_assert(kGroups[std::size(kGroups) - 1].op == WordOp::kPathMode);
+    ModalState start = source_.start;
+    if (start.path == PathMode::kUnknown) return false;
+    start.path = PathMode::kUnknown;
+    const analysis::ModalFlow chosen(module_, source_, graphs_, calls_, {start, sub_entry_});
+    for (const analysis::CallSite& site : calls_.AllSites()) {
+      if (!site.callee.Valid() || !module_.programs[site.callee].saves_modal_state) continue;
+      if ((changes_[site.callee.value] & kPathBit) == 0) continue;
+      const PathMode before = site.modal ? chosen.Entry(site.callee).path : chosen.At(site.caller, site.block).path;
+      if (before == PathMode::kUnknown) return true;
+    }
+    return false;
+  }
+
+  /// The path mode that the machine starts with, at the head of main programs: what is put back is then what was in
+  /// force before.
+  void NameStartPath() {
+    for (const ProgramId program : module_.programs.Ids()) {
+      if (module_.programs[program].kind != ProgramKind::kMain) continue;
+      for (const BlockId id : module_.programs[program].blocks) {
+        if (module_.blocks[id].words.Empty()) continue;
+        const WordOp op = module_.words[WordId{std::size_t{module_.blocks[id].words.begin}}].op;
+        if (op == WordOp::kDefine || op == WordOp::kExtern || op == WordOp::kHeader) continue;
+        ProgramEditor editor(module_, program, "save_to_restores");
+        Block made = editor.MakeBlock(id);
+        made.flags |= Block::kAdded;
+        editor.SetWords(made, {WordOf(WordOp::kPathMode, static_cast<std::uint8_t>(source_.start.path))});
+        editor.InsertBefore(id, made);
+        editor.Apply();
+        break;
+      }
+    }
   }
 
   /// At each of its returns the group has this value anyway.
@@ -169,6 +238,7 @@ class Pass {
       // The block's own words first, then what puts back, then the return.
       Block back = editor.MakeBlock(id);
       back.skip_level = block.skip_level;
+      MarkPath(back, words);
       editor.SetWords(back, words);
       if (rest.empty()) {
         back.label = block.label;
@@ -206,6 +276,7 @@ class Pass {
         if (words.empty()) continue;
         Block made = editor.MakeBlock(id);
         made.skip_level = block.skip_level;
+        MarkPath(made, words);
         editor.SetWords(made, words);
         editor.InsertAfter(id, made);
       }
@@ -214,6 +285,8 @@ class Pass {
   }
 
   Module& module_;
+  const Machine& source_;
+  const ModalState& sub_entry_;
   diag::Sink& sink_;
   analysis::FlowGraphs graphs_;
   analysis::CallGraph calls_;

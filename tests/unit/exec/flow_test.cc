@@ -293,8 +293,9 @@ TEST_CASE_FIXTURE(RunFixture, "by reference: variables, elements, whole arrays, 
 }
 
 TEST_CASE_FIXTURE(RunFixture, "modal state stays as the subprogram left it, or is put back with SAVE (vector 26)") {
-  const auto run = [](bool saves) {
+  const auto run = [](bool saves, ir::PathMode path = ir::PathMode::kExact) {
     RunFixture f;
+    f.machine.start.path = path;
     ir::ProgramBuilder sub(f.module, "SUB", ir::ProgramKind::kSub);
     f.Line(sub, "G91 X1");
     f.Line(sub, "TRANS X100 F5 G64");
@@ -313,6 +314,8 @@ TEST_CASE_FIXTURE(RunFixture, "modal state stays as the subprogram left it, or i
   };
   CHECK(run(false) == "RAPID X10\nRAPID X11\nPATH CONTINUOUS\nRAPID X16\nLINE X22 F5\nEND\n");
   CHECK(run(true) == "RAPID X10\nRAPID X11\nPATH CONTINUOUS\nPATH EXACT\nRAPID X5\nLINE X6 F5\nEND\n");
+  CHECK(run(true, ir::PathMode::kUnknown) ==
+        "RAPID X10\nRAPID X11\nPATH CONTINUOUS\nPATH UNKNOWN\nRAPID X5\nLINE X6 F5\nEND\n");
 }
 
 TEST_CASE_FIXTURE(

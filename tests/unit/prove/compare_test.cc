@@ -444,6 +444,14 @@ TEST_CASE("the path mode counts at motions, wherever it was selected") {
   other.Put(path(ir::PathMode::kContinuous)).Line(1, 1, 1).End();
   CHECK(Agree(a, head));
   CHECK_FALSE(Agree(a, other));
+  // A return puts back what was in force before any word chose, and so does the word that the translation added.
+  Trace back, added, left;
+  back.Put(path(ir::PathMode::kContinuous)).Line(1, 1, 1).Put(path(ir::PathMode::kUnknown)).Line(2, 2, 2).End();
+  added.Put(path(ir::PathMode::kContinuous)).Line(1, 1, 1);
+  added.Added().Put(path(ir::PathMode::kExact)).Line(2, 2, 2).End();
+  left.Put(path(ir::PathMode::kContinuous)).Line(1, 1, 1).Line(2, 2, 2).End();
+  CHECK(Agree(back, added));
+  CHECK_FALSE(Agree(back, left));
 }
 
 }  // namespace

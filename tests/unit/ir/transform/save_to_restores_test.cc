@@ -78,6 +78,59 @@ TEST_CASE("what the modes were must be one value") {
   CHECK(sink.HasErrors());
 }
 
+TEST_CASE("the work offset of the caller is put back, also where only other axes move behind it") {
+  const std::string sub =
+      "program SUB sub @m:10 saves-modal-state header\n"
+      "  @m:11 : work-offset #505\n"
+      "  @m:12 : return plain\n";
+  const std::string behind =
+      "  @m:2 : call name SUB calls SUB\n"
+      "  @m:3 : axis C = 5\n"
+      "  @m:4 : program-end #30\n";
+  diag::Sink sink;
+  CHECK(Restore("program M main @m:0\n  @m:1 : work-offset #54\n" + behind + sub, sink, Start()) ==
+        "program M main\n"
+        "work-offset #54\n"
+        "call name SUB calls SUB\n"
+        "work-offset #54 {added}\n"
+        "axis C = 5\n"
+        "program-end #30\n"
+        "program SUB sub\n"
+        "work-offset #505\n"
+        "return plain\n");
+  CHECK_FALSE(sink.HasErrors());
+  // Which one was in force before the program started is not known.
+  Restore("program M main @m:0\n" + behind + sub, sink, Start());
+  CHECK(sink.HasErrors());
+}
+
+TEST_CASE("the path mode of the start is named where one is put back that no word chose") {
+  diag::Sink sink;
+  const std::string text =
+      "program M main @m:0\n"
+      "  @m:1 : call name SUB calls SUB\n"
+      "  @m:2 : axis X = 5\n"
+      "  @m:3 : program-end #30\n"
+      "program SUB sub @m:10 saves-modal-state header\n"
+      "  @m:11 : path continuous\n"
+      "  @m:12 : return plain\n";
+  ModalState start;
+  start.path = PathMode::kExact;
+  CHECK(Restore(text, sink, start) ==
+        "program M main\n"
+        "path exact {added}\n"
+        "call name SUB calls SUB\n"
+        "path exact {added}\n"
+        "axis X = 5\n"
+        "program-end #30\n"
+        "program SUB sub\n"
+        "path continuous\n"
+        "return plain\n");
+  CHECK_FALSE(sink.HasErrors());
+  Restore(text, sink, {});
+  CHECK(sink.HasErrors());
+}
+
 TEST_CASE("a mode that every way sets again before it is used is not put back, whatever it was") {
   diag::Sink sink;
   const auto behind = [&](const std::string& blocks, const ModalState& start) {

@@ -24,6 +24,7 @@
 #include "backends/fanuc/rotations.h"
 #include "backends/fanuc/shifts.h"
 #include "backends/fanuc/source_meanings.h"
+#include "backends/fanuc/text_values.h"
 #include "backends/fanuc/thread_leads.h"
 #include "backends/fanuc/turning_offsets.h"
 #include "backends/fanuc/word_digits.h"
@@ -398,6 +399,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   PiToNumber(module);
   if (!ShiftSkipLevels(input, module, sink)) return false;
   bool ok = RefuseInputs(input, out, sink) && in_units && forms;
+  ok = RefuseTexts(input, module, sink) && ok;
   ok = RefuseRepeatedCalls(input, module, sink) && ok;
   ok = SaveToRestores(module, machine, entry, sink) && ok;
   for (const ir::ProgramId program : module.programs.Ids()) SplitStatements(module, program);

@@ -80,6 +80,13 @@ prove::Maps MapsOf(const ir::Module& source, const backends::Translation& transl
   return maps;
 }
 
+/// A computed S that the control rounds to a whole number: half of one is its error.
+bool RoundsSpeeds(const ir::Module& module) {
+  return std::ranges::any_of(module.words.All(), [](const ir::Word& word) {
+    return word.op == ir::WordOp::kSpeed && (word.flags & ir::Word::kRoundsValue) != 0;
+  });
+}
+
 prove::Precision PrecisionOf(const dialects::Profile& profile, const ir::Machine& machine) {
   prove::Precision precision;
   precision.word_error = machine.word_error;
@@ -137,6 +144,7 @@ prove::Verification CompareTranslation(Context& context, const ProgramSet& sourc
   options.compare.tolerance = setup.tolerance;
   options.compare.source = PrecisionOf(source.profile, source_machine);
   options.compare.target = PrecisionOf(target, target_machine);
+  if (RoundsSpeeds(module)) options.compare.target.speed_error = 0.5;
   options.compare.maps = MapsOf(source.module, translation);
   const dialects::ToolAddressing tools = target.Tools();
   options.compare.maps.separate_registers = tools == dialects::ToolAddressing::kRegisters;

@@ -34,6 +34,10 @@ constexpr Group kGroups[] = {
 };
 /// Bit of the work offset, whose value is a number, behind those of kGroups.
 constexpr std::uint32_t kOffsetBit = 1U << std::size(kGroups);
+/// The same for the mode of the speed: no word puts it back, since the speed that the spindle then has is not told.
+constexpr std::uint32_t kSpeedBit = kOffsetBit << 1U;
+
+std::uint8_t SpeedModeOf(const ModalState& state) { return static_cast<std::uint8_t>(state.speed_mode); }
 
 class Pass {
  public:
@@ -80,7 +84,7 @@ class Pass {
               if (word.op == kGroups[group].op) now |= 1U << group;
             }
             // Constant surface speed changes the feed mode on some controls.
-            if (word.op == WordOp::kSpeedMode) now |= 1U << 4U;
+            if (word.op == WordOp::kSpeedMode) now |= 1U << 4U | kSpeedBit;
             if (word.op == WordOp::kWorkOffset) now |= kOffsetBit;
             if (word.op == WordOp::kComputedG || word.op == WordOp::kVerbatim) now = ~0U;
             if (word.op != WordOp::kCall && word.op != WordOp::kModalCall) continue;
@@ -122,8 +126,14 @@ class Pass {
         Unknown(kGroups[group].name, at);
         continue;
       }
-      if (kGroups[group].op == WordOp::kMotion && LeavesAs(callee, group, value)) continue;
+      if (kGroups[group].op == WordOp::kMotion && LeavesAs(callee, kGroups[group].value, value)) continue;
       words.push_back(WordOf(kGroups[group].op, value));
+    }
+    const std::uint8_t speed = SpeedModeOf(before);
+    if ((changes_[callee.value] & kSpeedBit) != 0 && (speed == 0 || !LeavesAs(callee, SpeedModeOf, speed))) {
+      ok_ = false;
+      sink_.Report(diag::Code::kUnknownModalState, at, "the speed of the spindle",
+                   "the called program puts back (SAVE) whether it is a surface speed");
     }
     if ((changes_[callee.value] & kOffsetBit) == 0) return words;
     if (before.work_offset.known) {
@@ -198,7 +208,7 @@ class Pass {
   }
 
   /// At each of its returns the group has this value anyway.
-  bool LeavesAs(ProgramId program, std::size_t group, std::uint8_t value) const {
+  bool LeavesAs(ProgramId program, std::uint8_t (*value_of)(const ModalState&), std::uint8_t value) const {
     const IdRange<BlockId> blocks = module_.programs[program].blocks;
     bool returned = false;
     for (const BlockId id : blocks) {
@@ -207,7 +217,7 @@ class Pass {
         const Word& word = module_.words[word_id];
         const bool leaves = word.op == WordOp::kReturn || word.op == WordOp::kProgramEnd;
         returned = returned || leaves;
-        if (leaves && flow_.Reached(program, id) && kGroups[group].value(flow_.At(program, id)) != value) return false;
+        if (leaves && flow_.Reached(program, id) && value_of(flow_.At(program, id)) != value) return false;
       }
     }
     return returned;  // the text ends with one

@@ -16,8 +16,11 @@ namespace {
   "arc-via=0,arc-tangent=0,polar=0,system-variables=0,feed-once=0,chamfer=0,arc-angle=0,reference=0," \
   "inert=0,assign-list=0,computed-target=0,reference-parameter=0"
 // clang-format on
-constexpr std::string_view kWithTools = NCPORT_NO_FANUC ",plane=0,frame=0";
-constexpr std::string_view kWithoutTools = NCPORT_NO_FANUC ",tool=0,cutter-comp=0";
+// Often without one form: each has a share of the tenth that may be refused.
+#define NCPORT_SELDOM_FANUC ",save-modes=10,fractional-speed=20"
+constexpr std::string_view kWithTools = NCPORT_NO_FANUC NCPORT_SELDOM_FANUC ",plane=0,frame=0";
+constexpr std::string_view kWithoutTools = NCPORT_NO_FANUC NCPORT_SELDOM_FANUC ",tool=0,cutter-comp=0";
+#undef NCPORT_SELDOM_FANUC
 // What has no way back: what a computed number or a unit stands for must be known there.
 #define NCPORT_NO_WAY_BACK                                                                                           \
   ",fractional-speed=0,save-modes=0,units=0,bit-operations=0,integer-division=0,computed-index=0,skip-level=0,surface-speed=0,frame=0," \

@@ -131,6 +131,27 @@ TEST_CASE("the path mode of the start is named where one is put back that no wor
   CHECK(sink.HasErrors());
 }
 
+TEST_CASE("a program that leaves another speed mode than its caller's is refused") {
+  const auto text = [](const std::string& last) {
+    return "program M main @m:0\n"
+           "  @m:1 : call name SUB calls SUB\n"
+           "  @m:2 : axis X = 5\n"
+           "  @m:3 : program-end #30\n"
+           "program SUB sub @m:10 saves-modal-state header\n"
+           "  @m:11 : speed-mode constant-surface; speed = 100\n" +
+           last + "  @m:14 : return plain\n";
+  };
+  ModalState start;
+  start.feed_mode = FeedMode::kPerRevolution;
+  start.speed_mode = SpeedMode::kRpm;
+  diag::Sink back;
+  Restore(text("  @m:12 : speed-mode rpm; speed = 800\n"), back, start);
+  CHECK_FALSE(back.HasErrors());
+  diag::Sink left;
+  Restore(text(""), left, start);
+  CHECK(left.HasErrors());
+}
+
 TEST_CASE("a mode that every way sets again before it is used is not put back, whatever it was") {
   diag::Sink sink;
   const auto behind = [&](const std::string& blocks, const ModalState& start) {

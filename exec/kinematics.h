@@ -108,6 +108,7 @@ class Kinematics {
   bool Thread(const BlockWork& work, ir::Motion motion);
   bool MachineMove(const BlockWork& work);
   void ReferenceMove(const BlockWork& work);
+  [[nodiscard]] bool StaysUnknown(const BlockWork& work) const;
   void Dwell(const BlockWork& work);
   bool OpenAngle(const BlockWork& work);
   bool CloseAngle(const BlockWork& work);

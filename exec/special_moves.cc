@@ -101,6 +101,22 @@ bool Kinematics::MachineMove(const BlockWork& work) {
   return true;
 }
 
+/// Steps of nothing from a position that is not known: no axis goes anywhere.
+bool Kinematics::StaysUnknown(const BlockWork& work) const {
+  bool unknown = false;
+  for (std::uint8_t axis = 0; axis < ir::kMaxAxes; ++axis) {
+    if ((work.axes & AxisBit(axis)) == 0) continue;
+    const ir::ValueMode mode = work.axis_mode[axis];
+    const bool step = mode == ir::ValueMode::kModal
+                          ? channel_.modal.distance == ir::Distance::kIncremental
+                          : mode == ir::ValueMode::kIncremental || mode == ir::ValueMode::kIncrementalDiameter ||
+                                mode == ir::ValueMode::kIncrementalRadius;
+    if (!step || work.axis[axis] != 0) return false;
+    unknown = unknown || (channel_.base_known & ~channel_.uncertain & AxisBit(axis)) == 0;
+  }
+  return unknown;
+}
+
 /// To the reference point, by way of the point that the axis words name where the control has one.
 void Kinematics::ReferenceMove(const BlockWork& work) {
   contour_.OtherMotion();
@@ -108,7 +124,7 @@ void Kinematics::ReferenceMove(const BlockWork& work) {
   if (work.reference == ir::ReferenceKind::kFromReference) {
     return session_.Refuse(diag::Code::kCannotRun, "a return from the reference point: its way is not known");
   }
-  if (session_.machine.reference_via_point && work.axes != 0) {
+  if (session_.machine.reference_via_point && work.axes != 0 && !StaysUnknown(work)) {
     if (!ResolveTargets(work)) return;
     Adopt();
     if (session_.halted) return;

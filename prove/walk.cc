@@ -94,6 +94,27 @@ void Walk::TakeAdded(const Event& event) {
   if (!complaint_) complaint_ = "an added block moves between two motions of the program, away from any tool change";
 }
 
+/// A rapid by nothing on the way to the reference point: only some controls name a point on that way.
+bool Walk::IsStepOfNothing(std::size_t index) const {
+  const Event& event = events_[index];
+  if (event.kind != EventKind::kRapid || event.added || index + 1 == events_.size()) return false;
+  if (events_[index + 1].kind != EventKind::kReference) return false;
+  for (std::uint8_t axis = 0; axis < ir::kMaxAxes; ++axis) {
+    if ((event.moved_axes >> axis & 1U) == 0) continue;
+    std::size_t before = index;
+    // Other axes may have gone where nobody knows.
+    while (before-- > 0) {
+      const Event& move = events_[before];
+      if (!IsMotion(move.kind)) continue;
+      const bool known = move.kind != EventKind::kReference && move.kind != EventKind::kRapidMachine;
+      if (known && (move.known_axes >> axis & 1U) != 0 && move.position[axis] == event.position[axis]) break;
+      if (known || (move.moved_axes >> axis & 1U) != 0) return false;
+    }
+    if (before >= index) return false;
+  }
+  return true;
+}
+
 const Event* Walk::Next() {
   for (; index_ < events_.size(); ++index_) {
     const Event& event = events_[index_];
@@ -157,6 +178,12 @@ const Event* Walk::Next() {
           if (pair != maps_.aux.end() && !pair->target.has_value()) continue;
         }
         return &event;
+      case EventKind::kRapid:
+        if (IsStepOfNothing(index_)) {
+          --motions_left_;
+          continue;
+        }
+        [[fallthrough]];
       default:
         if (event.added && event.kind != EventKind::kAlarm && event.kind != EventKind::kEnd) {
           TakeAdded(event);

@@ -91,6 +91,7 @@ class Walk {
   bool TakeState(const exec::Event& event);
   void TakeAdded(const exec::Event& event);
   [[nodiscard]] bool ToolAhead() const;
+  [[nodiscard]] bool IsStepOfNothing(std::size_t index) const;
 
   const std::vector<exec::Event>& events_;
   const Maps& maps_;

@@ -21,6 +21,7 @@
 #include "backends/fanuc/modal_calls.h"
 #include "backends/fanuc/raise_words.h"
 #include "backends/fanuc/refuse_functions.h"
+#include "backends/fanuc/references.h"
 #include "backends/fanuc/rotations.h"
 #include "backends/fanuc/shifts.h"
 #include "backends/fanuc/source_meanings.h"
@@ -174,13 +175,6 @@ ir::ExprId BareValue(const Module& module, ir::ExprId id) {
          module.exprs[id].op == ir::ExprOp::kConvert)
     id = ir::ExprId{module.exprs[id].a};
   return id;
-}
-
-/// The letters of increments stand for X, Y, Z, C (Printer::PrintAddress).
-bool HasIncrementLetter(const dialects::Profile& profile, std::uint8_t axis) {
-  constexpr std::uint8_t kC = 5;
-  if (axis > 2 && axis != kC) return false;
-  return (axis == kC ? 3U : axis) < profile.words.incremental_axes.Or("").size();
 }
 
 /// What is left must have a form in the target.
@@ -435,6 +429,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   }
   CarriedPositions carried;
   ok = AbsoluteDimensions(module, machine, dimensions, sink, &carried) && ok;
+  ReferencesToSteps(input, out);
   ok = ThreadLeads(input, out, sink) && ok;
   ok = RoundFeeds(input, out, sink) && ok;  // while the blocks still say which of them are threads
   ok = NameTurningOffsets(input, out, sink) && ok;

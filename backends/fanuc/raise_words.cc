@@ -605,9 +605,9 @@ void NameMotions(const RaiseInput& input, Translation& out) {
                 word.op == WordOp::kPolarAngle || word.op == WordOp::kPolarRadius;
         named = named || word.op == WordOp::kMotion;
         leaves = leaves || ir::DefaultPhaseOf(word.op) == ir::Phase::kFlow || word.op == WordOp::kInert;
-        shift = shift || word.op == WordOp::kFrame || word.op == WordOp::kPole;
+        shift = shift || word.op == WordOp::kFrame || word.op == WordOp::kPole || word.op == WordOp::kReference;
       }
-      if (shift) continue;  // its axis words are no move
+      if (shift) continue;  // its axis words are no move under the motion mode
       if (block.label.Valid() || block.number != Block::kNoNumber || leaves || block.skip_level != Block::kNoSkip)
         running = ir::Motion::kUnknown;
       const ir::Motion motion = flow.At(program, id).motion;

@@ -69,8 +69,12 @@ bool RefuseTexts(const RaiseInput& input, const ir::Module& module, diag::Sink& 
       for (const ir::WordId word_id : block.words) {
         const ir::Word& word = module.words[word_id];
         std::string found;
+        // A computed target of a jump has a finding of its own.
+        const ExprId target =
+            word.op == ir::WordOp::kJump ? module.jumps[word.Extra<ir::JumpId>()].target.expr : ExprId{};
         ir::VisitValues(module, word, [&](ExprId root) {
-          if (found.empty() && root.Valid() && module.exprs[root].op != ExprOp::kText) found = Foreign(module, root);
+          if (!found.empty() || !root.Valid() || root == target || module.exprs[root].op == ExprOp::kText) return;
+          found = Foreign(module, root);
         });
         if (found.empty()) continue;
         ok = false;

@@ -215,7 +215,7 @@ std::vector<std::uint8_t> Maker::AllAxes() const {
 void Maker::MakeReference() {
   if (!ResetFrame()) return MakeLinear();
   ir::BlockBuilder block = NewBlock();
-  const bool fixed = random_.Percent(40);
+  const bool fixed = Draw(Feature::kFixedPoint);
   Code(block, WordOp::kReference,
        static_cast<std::uint8_t>(fixed ? ir::ReferenceKind::kFixedPoint : ir::ReferenceKind::kReference));
   const std::vector<std::uint8_t> axes = SomeAxes(false);

@@ -117,6 +117,15 @@ TEST_CASE_FIXTURE(RunFixture, "a vacant value makes its word vanish, zero does n
 TEST_CASE_FIXTURE(RunFixture, "machine coordinates and reference points leave a position that nobody knows") {
   CHECK(Trace({"G0 X5 Y5 Z5", "SUPA Z0", "X6", "G74 X0", "Y7"}) ==
         "RAPID X5 Y5 Z5\nRAPID MCS Z0\nRAPID X6 Y5\nREFPOINT X\nRAPID Y7\n");
+  // By way of a point: a step of nothing is none, also from a position that is not known.
+  RunFixture via;
+  via.machine.reference_via_point = true;
+  CHECK(via.Trace({"G91 G74 X0", "G90 G0 X5", "G91 G74 X0", "G90 G74 Z3"}) ==
+        "REFPOINT X\nRAPID X5\nRAPID X5\nREFPOINT X\nRAPID Z3\nREFPOINT Z\n");
+  RunFixture step;
+  step.machine.reference_via_point = true;
+  step.Trace({"G91 G74 X1"});
+  CHECK(step.Finding() == "increment for X from an unknown position");
   RunFixture after;
   after.Trace({"G0 Z5", "SUPA Z0", "G91 Z1"});
   CHECK(after.Finding() == "increment for Z from an unknown position");

@@ -431,6 +431,34 @@ TEST_CASE("an alarm without a number is known by its class") {
   CHECK_FALSE(Agree(numbered, range, options));
 }
 
+TEST_CASE("a step of nothing on the way to the reference point is no move, any other step is one") {
+  const auto reference = [] {
+    Event event;
+    event.kind = EventKind::kReference;
+    event.moved_axes = 4;
+    return event;
+  };
+  const auto by_way = [&](double z) {
+    Event event;
+    event.kind = EventKind::kRapid;
+    event.moved_axes = 4;
+    event.known_axes = 5;
+    event.position[0] = 1;
+    event.position[2] = z;
+    return event;
+  };
+  Trace straight, nothing, step, open, blind;
+  straight.Line(1, 2, 100).Put(reference()).End();
+  nothing.Line(1, 2, 100).Put(by_way(2)).Put(reference()).End();
+  step.Line(1, 2, 100).Put(by_way(1)).Put(reference()).End();
+  CHECK(Agree(straight, nothing));
+  CHECK_FALSE(Agree(straight, step));
+  // Where the axis stood is not known: it may move.
+  open.Put(reference()).Line(1, 2, 100).End();
+  blind.Put(by_way(0)).Put(reference()).Line(1, 2, 100).End();
+  CHECK_FALSE(Agree(open, blind));
+}
+
 TEST_CASE("the path mode counts at motions, wherever it was selected") {
   const auto path = [](ir::PathMode mode) {
     Event event;

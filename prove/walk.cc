@@ -98,7 +98,10 @@ void Walk::TakeAdded(const Event& event) {
 bool Walk::IsStepOfNothing(std::size_t index) const {
   const Event& event = events_[index];
   if (event.kind != EventKind::kRapid || event.added || index + 1 == events_.size()) return false;
-  if (events_[index + 1].kind != EventKind::kReference) return false;
+  const Event& next = events_[index + 1];
+  if (next.moved_axes != event.moved_axes) return false;
+  // The program may stand still of its own before it: the same on both sides.
+  if (next.kind != EventKind::kReference && !IsStepOfNothing(index + 1)) return false;
   for (std::uint8_t axis = 0; axis < ir::kMaxAxes; ++axis) {
     if ((event.moved_axes >> axis & 1U) == 0) continue;
     std::size_t before = index;

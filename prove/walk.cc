@@ -97,11 +97,14 @@ void Walk::TakeAdded(const Event& event) {
 /// A rapid by nothing on the way to the reference point: only some controls name a point on that way.
 bool Walk::IsStepOfNothing(std::size_t index) const {
   const Event& event = events_[index];
-  if (event.kind != EventKind::kRapid || event.added || index + 1 == events_.size()) return false;
-  const Event& next = events_[index + 1];
+  if (event.kind != EventKind::kRapid || event.added) return false;
+  std::size_t behind = index + 1;
+  while (behind < events_.size() && !IsMotion(events_[behind].kind)) ++behind;
+  if (behind == events_.size()) return false;
+  const Event& next = events_[behind];
   if (next.moved_axes != event.moved_axes) return false;
   // The program may stand still of its own before it: the same on both sides.
-  if (next.kind != EventKind::kReference && !IsStepOfNothing(index + 1)) return false;
+  if (next.kind != EventKind::kReference && !IsStepOfNothing(behind)) return false;
   for (std::uint8_t axis = 0; axis < ir::kMaxAxes; ++axis) {
     if ((event.moved_axes >> axis & 1U) == 0) continue;
     std::size_t before = index;

@@ -132,6 +132,8 @@ void Comparer::CompareWorkOffset(const Event& a, const Event& b) {
 void Comparer::ComparePath(const Event& a, const Event& b) {
   if (options_.maps.path_lost) return;
   const ir::PathMode path = source_.Now().path;
+  const ir::PathMode start = target_.StartPath();
+  if (path == ir::PathMode::kUnknown && start != ir::PathMode::kUnknown && target_.Now().path == start) return;
   const ir::PathMode other = path == ir::PathMode::kUnknown ? target_.WithoutAdded().path : target_.Now().path;
   if (path != other) Fail(&a, &b, "exact stop and path control differ");
 }

@@ -75,7 +75,10 @@ bool Walk::TakeState(const Event& event) {
   };
   apply(now_);
   // Added path words put back or name what was in force at the start: no word of the program chose it.
-  if (event.added && event.kind == EventKind::kPath) own_.path = ir::PathMode::kUnknown;
+  if (event.kind == EventKind::kPath) {
+    if (!start_path_) start_path_ = event.added ? event.path : ir::PathMode::kUnknown;
+    if (event.added) own_.path = ir::PathMode::kUnknown;
+  }
   return event.added ? false : apply(own_);
 }
 

@@ -76,6 +76,8 @@ class Walk {
   }
   [[nodiscard]] const Selected& Now() const { return now_; }
   [[nodiscard]] const Selected& WithoutAdded() const { return own_; }
+  /// The path mode that an added block names before the program selects one; unknown: there is none.
+  [[nodiscard]] ir::PathMode StartPath() const { return start_path_.value_or(ir::PathMode::kUnknown); }
   [[nodiscard]] std::uint16_t Dirty() const { return dirty_; }
   [[nodiscard]] const std::optional<std::string>& Complaint() const { return complaint_; }
   void MotionDone(const exec::Event& event) {
@@ -103,6 +105,7 @@ class Walk {
   Spindles spindles_, own_spindles_, before_block_;
   ir::BlockId spindle_block_;  // of the last spindle word of the program itself
   Selected now_, own_;
+  std::optional<ir::PathMode> start_path_;
   std::uint16_t dirty_ = 0;  // axes that added blocks moved and the program has not named since
   std::optional<std::string> complaint_;
 };

@@ -480,6 +480,15 @@ TEST_CASE("the path mode counts at motions, wherever it was selected") {
   left.Put(path(ir::PathMode::kContinuous)).Line(1, 1, 1).Line(2, 2, 2).End();
   CHECK(Agree(back, added));
   CHECK_FALSE(Agree(back, left));
+  // Also where the mode of the start, which a block at the head names, is the one that the callee left.
+  Trace none, same, other_mode;
+  none.Put(path(ir::PathMode::kExact)).Line(1, 1, 1).Put(path(ir::PathMode::kUnknown)).Line(2, 2, 2).End();
+  same.Added().Put(path(ir::PathMode::kContinuous)).Put(path(ir::PathMode::kExact)).Line(1, 1, 1);
+  same.Added().Put(path(ir::PathMode::kContinuous)).Line(2, 2, 2).End();
+  other_mode.Added().Put(path(ir::PathMode::kContinuous)).Put(path(ir::PathMode::kExact)).Line(1, 1, 1);
+  other_mode.Line(2, 2, 2).End();
+  CHECK(Agree(none, same));
+  CHECK_FALSE(Agree(none, other_mode));
 }
 
 }  // namespace

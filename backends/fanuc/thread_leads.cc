@@ -1,6 +1,7 @@
 #include "backends/fanuc/thread_leads.h"
 
 #include <map>
+#include <vector>
 
 #include "ir/analysis/forward_flow.h"
 
@@ -20,22 +21,35 @@ struct Use {
   bool thread = false;  // its lead replaces the feed
   bool feed = false;    // names a feed
   bool relies = false;  // a feed move without a feed word
+  ir::ExprId literal;   // the feed that it names, where that is a number
+  ir::FeedMode mode = ir::FeedMode::kUnknown;
+};
+
+/// The feed of the source on the ways to a block.
+struct Feed {
+  bool lost = false;   // on some way a thread took it
+  ir::ExprId literal;  // the number that is in force in the source on every way; none: not one number
+  ir::FeedMode mode = ir::FeedMode::kUnknown;  // under which it was written
 };
 
 class Leads {
  public:
-  // The data flow: is there a way here on which a thread took the feed?
-  using State = bool;
-  [[nodiscard]] State Entry(ProgramId) const { return false; }
-  [[nodiscard]] State Unknown(ProgramId) const { return true; }
-  bool Join(BlockId, State& into, State from) const {
-    const bool before = into;
-    into = into || from;
-    return into != before;
+  using State = Feed;
+  [[nodiscard]] State Entry(ProgramId) const { return {}; }
+  [[nodiscard]] State Unknown(ProgramId) const { return {.lost = true}; }
+  bool Join(BlockId, State& into, const State& from) const {
+    const Feed before = into;
+    into.lost = into.lost || from.lost;
+    if (!Same(into, from)) into.literal = {};
+    return into.lost != before.lost || into.literal != before.literal;
   }
-  void Transfer(ProgramId, BlockId block, State& lost) const {
+  void Transfer(ProgramId, BlockId block, State& feed) const {
     const Use& use = uses_.at(block);
-    lost = use.thread || (lost && !use.feed);
+    if (use.feed) {
+      feed.literal = use.literal;
+      feed.mode = use.mode;
+    }
+    feed.lost = use.thread || (feed.lost && !use.feed && !CanName(use, feed));
   }
 
   Leads(const RaiseInput& input, Module& module, diag::Sink& sink)
@@ -50,6 +64,15 @@ class Leads {
   bool Run();
 
  private:
+  [[nodiscard]] bool Same(const Feed& a, const Feed& b) const {
+    return a.literal.Valid() && b.literal.Valid() && a.mode == b.mode &&
+           module_.exprs[a.literal].number == module_.exprs[b.literal].number;
+  }
+  /// The block can name the feed that the source keeps.
+  [[nodiscard]] static bool CanName(const Use& use, const Feed& feed) {
+    return use.relies && feed.literal.Valid() && feed.mode != ir::FeedMode::kUnknown && use.mode == feed.mode;
+  }
+  void Name(BlockId block, ir::ExprId feed);
   [[nodiscard]] Use UseOf(ProgramId program, BlockId block) const;
 
   const RaiseInput& input_;
@@ -65,11 +88,13 @@ Use Leads::UseOf(ProgramId program, BlockId id) const {
   const ir::Block& block = module_.blocks[id];
   const ir::Motion motion = flow_.At(program, id).motion;
   Use use;
+  use.mode = flow_.At(program, id).feed_mode;
   bool lead = false, moves = false, elsewhere = false;
   for (const WordId word_id : block.words) {
     const Word& word = module_.words[word_id];
     lead = lead || word.op == WordOp::kCenter;
     use.feed = use.feed || word.op == WordOp::kFeed;
+    if (word.op == WordOp::kFeed && module_.exprs[word.value].op == ir::ExprOp::kLiteral) use.literal = word.value;
     moves = moves || word.op == WordOp::kAxis || word.op == WordOp::kCenter || word.op == WordOp::kRadius;
     elsewhere = elsewhere || word.op == WordOp::kFrame || word.op == WordOp::kReference ||
                 word.op == WordOp::kPresetPosition || word.op == WordOp::kMachineCoords;
@@ -78,6 +103,20 @@ Use Leads::UseOf(ProgramId program, BlockId id) const {
   const bool cuts = motion != ir::Motion::kRapid && motion != ir::Motion::kThread;
   use.relies = moves && cuts && !elsewhere && !use.feed;
   return use;
+}
+
+void Leads::Name(BlockId id, ir::ExprId feed) {
+  ir::Block& block = module_.blocks[id];
+  std::vector<Word> words;
+  for (const WordId word : block.words) words.push_back(module_.words[word]);
+  Word made;
+  made.op = WordOp::kFeed;
+  made.value = feed;
+  made.phase = ir::DefaultPhaseOf(WordOp::kFeed);
+  made.flags = Word::kAdded;
+  words.push_back(made);
+  block.words = {static_cast<std::uint32_t>(module_.words.Size()), static_cast<std::uint32_t>(words.size())};
+  for (const Word& word : words) module_.words.Add(word);
 }
 
 bool Leads::Run() {
@@ -90,9 +129,11 @@ bool Leads::Run() {
   flow.Run();
   bool ok = true;
   for (const auto& [id, use] : uses_) {
-    const ir::Block& block = module_.blocks[id];
-    const bool* lost = flow.Before(id);
-    if (use.relies && lost != nullptr && *lost) {
+    const ir::Block block = module_.blocks[id];
+    const Feed* feed = flow.Before(id);
+    if (use.relies && feed != nullptr && feed->lost && CanName(use, *feed)) {
+      Name(id, feed->literal);
+    } else if (use.relies && feed != nullptr && feed->lost) {
       ok = false;
       sink_
           .Report(diag::Code::kNotExpressible, module_.RangeOf(block), "a feed that was written before a thread",

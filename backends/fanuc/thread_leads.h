@@ -6,8 +6,8 @@
 
 namespace ncport::backends::fanuc {
 
-/// Lead words become F. A feed move behind a thread that relies on the F before it is refused. Run after
-/// AbsoluteDimensions.
+/// Lead words become F. A feed move behind a thread that relies on the F before it names that again, where it is one
+/// number on every way; else it is refused. Run after AbsoluteDimensions.
 bool ThreadLeads(const RaiseInput& input, Translation& out, diag::Sink& sink);
 
 }  // namespace ncport::backends::fanuc

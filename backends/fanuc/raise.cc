@@ -277,11 +277,12 @@ bool CheckLegal(const RaiseInput& input, Translation& out, diag::Sink& sink) {
           case WordOp::kModalCall: {
             const auto call = word.Extra<ir::CallId>();
             if (!call.Valid()) break;
-            if (!module.calls[call].program.Valid()) {
-              ok = false;
-              sink.Report(diag::Code::kUnknownProgram, module.RangeOf(block, word),
-                          module.View(module.calls[call].name));
-            }
+            if (module.calls[call].program.Valid()) break;
+            const ir::ExprId name = module.calls[call].name_expr;
+            const bool text = name.Valid() && module.exprs[name].op == ir::ExprOp::kText;
+            ok = false;
+            sink.Report(diag::Code::kUnknownProgram, module.RangeOf(block, word),
+                        module.View(text ? StringId{std::size_t{module.exprs[name].a}} : module.calls[call].name));
             break;
           }
           case WordOp::kSpindle:

@@ -69,6 +69,11 @@ bool RefuseTexts(const RaiseInput& input, const ir::Module& module, diag::Sink& 
       for (const ir::WordId word_id : block.words) {
         const ir::Word& word = module.words[word_id];
         std::string found;
+        if (word.op == ir::WordOp::kCall && word.Extra<ir::CallId>().Valid()) {
+          const ExprId name = module.calls[word.Extra<ir::CallId>()].name_expr;
+          if (name.Valid() && module.exprs[name].op != ExprOp::kText)
+            found = "a call of a program whose name is computed";
+        }
         // A computed target of a jump has a finding of its own.
         const ExprId target =
             word.op == ir::WordOp::kJump ? module.jumps[word.Extra<ir::JumpId>()].target.expr : ExprId{};

@@ -91,7 +91,10 @@ std::vector<TextFile> PrintCalled(const ir::Module& module, ir::ProgramId main, 
         const ir::Word& word = module.words[id];
         const auto call = word.Extra<ir::CallId>();
         if ((word.op != ir::WordOp::kCall && word.op != ir::WordOp::kModalCall) || !call.Valid()) continue;
-        const ir::ProgramId callee = module.calls[call].program;
+        ir::ProgramId callee = module.calls[call].program;
+        const ir::ExprId name = module.calls[call].name_expr;
+        if (!callee.Valid() && name.Valid() && module.exprs[name].op == ir::ExprOp::kText)
+          callee = module.FindProgram(module.View(StringId{std::size_t{module.exprs[name].a}}), true);
         if (callee.Valid() && std::ranges::find(called, callee) == called.end()) called.push_back(callee);
       }
     }

@@ -30,7 +30,7 @@ bool Kinematics::Thread(const BlockWork& work, Motion motion) {
   double change = channel_.thread_change;
   if (session_.machine.thread_lead_from_feed) {
     lead = channel_.feed_known ? channel_.feed : 0;
-    change = std::fabs(centre);
+    change = centre;
   }
   if (lead == 0) {
     session_.Alarm(ir::AlarmClass::kGeometry, "thread without a lead");
@@ -53,7 +53,9 @@ bool Kinematics::Thread(const BlockWork& work, Motion motion) {
       return false;
     }
   }
-  if (motion == Motion::kThreadIncreasing) event.change = std::fabs(change);
+  // One word for both on controls whose change has the sign (fanuc-8.1).
+  if (motion == Motion::kThreadIncreasing)
+    event.change = session_.machine.thread_lead_from_feed ? change : std::fabs(change);
   if (motion == Motion::kThreadDecreasing) event.change = -std::fabs(change);
   if (work.Has(BlockWork::kStartAngle)) event.start_angle = work.start_angle;
   NoteDirection(event);

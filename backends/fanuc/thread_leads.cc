@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "ir/analysis/forward_flow.h"
+#include "ir/builder.h"
 
 namespace ncport::backends::fanuc {
 
@@ -18,10 +19,11 @@ using ir::WordOp;
 
 /// What a block means for the feed in force.
 struct Use {
-  bool thread = false;  // its lead replaces the feed
-  bool feed = false;    // names a feed
-  bool relies = false;  // a feed move without a feed word
-  ir::ExprId literal;   // the feed that it names, where that is a number
+  bool thread = false;                        // its lead replaces the feed
+  bool variable = false, decreasing = false;  // F is the change of the lead in the source, K here
+  bool feed = false;                          // names a feed
+  bool relies = false;                        // a feed move without a feed word
+  ir::ExprId literal;                         // the feed that it names, where that is a number
   ir::FeedMode mode = ir::FeedMode::kUnknown;
 };
 
@@ -73,6 +75,8 @@ class Leads {
     return use.relies && feed.literal.Valid() && feed.mode != ir::FeedMode::kUnknown && use.mode == feed.mode;
   }
   void Name(BlockId block, ir::ExprId feed);
+  [[nodiscard]] ir::ExprId Negated(ir::ExprId value);
+  void NameDecreasing();
   [[nodiscard]] Use UseOf(ProgramId program, BlockId block) const;
 
   const RaiseInput& input_;
@@ -99,8 +103,13 @@ Use Leads::UseOf(ProgramId program, BlockId id) const {
     elsewhere = elsewhere || word.op == WordOp::kFrame || word.op == WordOp::kReference ||
                 word.op == WordOp::kPresetPosition || word.op == WordOp::kMachineCoords;
   }
-  use.thread = motion == ir::Motion::kThread && lead;
-  const bool cuts = motion != ir::Motion::kRapid && motion != ir::Motion::kThread;
+  use.decreasing = motion == ir::Motion::kThreadDecreasing;
+  use.variable = lead && (use.decreasing || motion == ir::Motion::kThreadIncreasing);
+  use.thread = (motion == ir::Motion::kThread && lead) || use.variable;
+  // In the source the F of such a block is no feed.
+  if (use.variable) use.feed = false;
+  const bool cuts = motion != ir::Motion::kRapid && motion != ir::Motion::kThread &&
+                    motion != ir::Motion::kThreadIncreasing && !use.decreasing;
   use.relies = moves && cuts && !elsewhere && !use.feed;
   return use;
 }
@@ -117,6 +126,28 @@ void Leads::Name(BlockId id, ir::ExprId feed) {
   words.push_back(made);
   block.words = {static_cast<std::uint32_t>(module_.words.Size()), static_cast<std::uint32_t>(words.size())};
   for (const Word& word : words) module_.words.Add(word);
+}
+
+ir::ExprId Leads::Negated(ir::ExprId value) {
+  ir::ExprBuilder make(module_);
+  if (module_.exprs[value].op != ir::ExprOp::kLiteral)
+    return make.Unary(ir::ExprOp::kNegate, make.Unary(ir::ExprOp::kGroup, value));
+  ir::Expr literal = module_.exprs[value];
+  literal.number = -literal.number;
+  return module_.AddExpr(literal, {});
+}
+
+/// One word stands for both ways of change: its K has the sign.
+void Leads::NameDecreasing() {
+  for (const ProgramId program : module_.programs.Ids()) {
+    for (const BlockId id : module_.programs[program].blocks) {
+      for (const WordId word_id : module_.blocks[id].words) {
+        Word& word = module_.words[word_id];
+        if (word.op == WordOp::kMotion && word.index == static_cast<std::uint8_t>(ir::Motion::kThreadDecreasing))
+          word.index = static_cast<std::uint8_t>(ir::Motion::kThreadIncreasing);
+      }
+    }
+  }
 }
 
 bool Leads::Run() {
@@ -141,15 +172,31 @@ bool Leads::Run() {
           .help = "the lead of a thread is its F there: write F again behind the thread";
     }
     if (!use.thread) continue;
+    bool changes = false;
     for (const WordId word_id : block.words) {
       Word& word = module_.words[word_id];
+      if (use.variable && word.op == WordOp::kFeed) {
+        changes = true;
+        word.op = WordOp::kCenter;
+        word.index = 2;
+        word.mode = ir::ValueMode::kStep;
+        word.phase = ir::DefaultPhaseOf(WordOp::kCenter);
+        if (use.decreasing) word.value = Negated(word.value);
+        continue;
+      }
       if (word.op != WordOp::kCenter) continue;
       word.op = WordOp::kFeed;
       word.index = 0;
       word.mode = ir::ValueMode::kModal;
       word.phase = ir::DefaultPhaseOf(WordOp::kFeed);
     }
+    if (use.variable && !changes) {
+      ok = false;
+      sink_.Report(diag::Code::kNotExpressible, module_.RangeOf(block),
+                   "a change of the lead that was written in another block", input_.profile->name);
+    }
   }
+  NameDecreasing();
   return ok;
 }
 

@@ -89,7 +89,9 @@ bool RoundFeeds(const RaiseInput& input, Translation& out, diag::Sink& sink) {
         const double value = module.exprs[literal].number;
         if (!IsComputed(module.exprs[literal].format) || !(value > 0)) continue;
         const ir::ModalState state = flow.At(program, id);
-        int decimals = state.motion == ir::Motion::kThread               ? kLeadDecimals
+        int decimals = state.motion == ir::Motion::kThread || state.motion == ir::Motion::kThreadIncreasing ||
+                               state.motion == ir::Motion::kThreadDecreasing
+                           ? kLeadDecimals
                        : state.feed_mode == ir::FeedMode::kPerRevolution ? kRevolutionDecimals
                                                                          : lengths;
         const int before_point = value < 1 ? 1 : static_cast<int>(std::floor(std::log10(value))) + 1;

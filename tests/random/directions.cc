@@ -10,20 +10,20 @@ namespace {
 // clang-format off
 #define NCPORT_NO_FANUC \
   "computed-radius=0,frame=1,tool=1,passes=0,units=1,feed-mode=1,repeat-part=0,edge-before-change=0," \
-  "dwell-revolutions=0,turns=0,thread-variable=0,block-range=0,modal-call=0,computed-tool=0," \
+  "dwell-revolutions=0,turns=0,block-range=0,modal-call=0,computed-tool=0," \
   "frame-turns=0,shown-alarm=0,open-speed-mode=0,spindle-position=0," \
   "aux-h=0,return-to-label=0,call-by-text=0,computed-axis=0,text-functions=0,tap=0,blind-step=0," \
   "arc-via=0,arc-tangent=0,polar=0,system-variables=0,feed-once=0,chamfer=0,arc-angle=0,fixed-point=0," \
   "inert=0,assign-list=0,computed-target=0,reference-parameter=0"
 // clang-format on
 // Often without one form: each has a share of the tenth that may be refused.
-#define NCPORT_SELDOM_FANUC ",save-modes=10,fractional-speed=20,feed-across-thread=10"
+#define NCPORT_SELDOM_FANUC ",save-modes=10,fractional-speed=20,feed-across-thread=10,thread-variable=5"
 constexpr std::string_view kWithTools = NCPORT_NO_FANUC NCPORT_SELDOM_FANUC ",plane=0,frame=0";
 constexpr std::string_view kWithoutTools = NCPORT_NO_FANUC NCPORT_SELDOM_FANUC ",tool=0,cutter-comp=0";
 #undef NCPORT_SELDOM_FANUC
 // What has no way back: what a computed number or a unit stands for must be known there.
 #define NCPORT_NO_WAY_BACK                                                                                          \
-  ",feed-across-thread=0,reference=0,fractional-speed=0,save-modes=0,units=0,bit-operations=0,integer-division=0,computed-index=0,skip-" \
+  ",thread-variable=0,feed-across-thread=0,reference=0,fractional-speed=0,save-modes=0,units=0,bit-operations=0,integer-division=0,computed-index=0,skip-" \
   "level=0,surface-speed=0,frame=0,"                                                                                \
   "feed-mode=0,thread=0,tangle=0,case=0,plain-jump=0,plain-truth=0,loop=0,alarm=0,path-mode=0"
 constexpr std::string_view kBackWithTools = NCPORT_NO_FANUC ",plane=0" NCPORT_NO_WAY_BACK;

@@ -169,8 +169,8 @@ TEST_CASE_FIXTURE(RunFixture, "threads and taps") {
 TEST_CASE_FIXTURE(RunFixture, "the lead of a thread is F on some controls, and the centre word its change") {
   machine.thread_lead_from_feed = true;
   machine.start.feed_mode = ir::FeedMode::kPerRevolution;
-  CHECK(Trace({"G0 Z5", "G33 Z-10 F1.5", "G34 Z-20 F2 K0.1"}) ==
-        "RAPID Z5\nTHREAD Z-10 pitch 1.5\nTHREAD Z-20 pitch 2 change 0.1\n");
+  CHECK(Trace({"G0 Z5", "G33 Z-10 F1.5", "G34 Z-20 F2 K0.1", "Z-30 F2 K-0.1"}) ==
+        "RAPID Z5\nTHREAD Z-10 pitch 1.5\nTHREAD Z-20 pitch 2 change 0.1\nTHREAD Z-30 pitch 2 change -0.1\n");
 }
 
 TEST_CASE_FIXTURE(RunFixture, "a motion word of one block gives way to the one before") {

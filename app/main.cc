@@ -360,6 +360,7 @@ int RunDump(const DumpArguments& arguments) {
 
 struct TranslateArguments : Common, Running {
   std::string to, output = "-", unsupported = "error", source_map, report;
+  std::string increments = "exact";
   bool verify = false;
   std::uint32_t runs = 200;
   std::uint64_t seed = 1;
@@ -375,6 +376,7 @@ int RunTranslate(const TranslateArguments& arguments) {
   options.runs = arguments.runs;
   options.seed = arguments.seed;
   options.stop_at_unsupported = arguments.unsupported == "stop";
+  options.keep_increments = arguments.increments == "keep";
   std::vector<std::unique_ptr<OutputFile>> files;
   if (!arguments.source_map.empty()) {
     OutputFile& map = *files.emplace_back(std::make_unique<OutputFile>(arguments.source_map));
@@ -504,6 +506,11 @@ int Main(int argc, char** argv) {
       ->add_option("--unsupported", translate.unsupported,
                    "a block that the target cannot express: error, or stop = an alarm in its place")
       ->check(CLI::IsMember({"error", "stop"}));
+  command
+      ->add_option("--increments", translate.increments,
+                   "increments of the source: exact = positions, which do not drift; keep = increments (U W, G91), "
+                   "with a warning where the target rounds them")
+      ->check(CLI::IsMember({"exact", "keep"}));
   command
       ->add_option("--source-map", translate.source_map, "file for the places that the blocks come from, as JSON lines")
       ->type_name("FILE");

@@ -83,6 +83,7 @@ struct TranslateOptions : RunSettings {
   app::ReportForm report_form = app::ReportForm::kHtml;
   bool stop_at_unsupported = false;  // refused blocks become alarms; the result has files and the call fails
   OutputSink* source_map = nullptr;  // JSON lines {version, out, file, line, calls, turns}
+  bool keep_increments = false;      // else positions, where the target rounds each increment
 };
 
 /// A file of the output.

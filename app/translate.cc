@@ -86,7 +86,7 @@ Status Translate(Context& context, std::vector<Input> inputs, const TranslateOpt
   app::TakeCall(run, set, config);
   backends::Translation translation;
   const ir::Module source = set.module;
-  const backends::TranslateInput input{&source, &set.profile, &machine, &target, &config};
+  const backends::TranslateInput input{&source, &set.profile, &machine, &target, &config, options.keep_increments};
   const bool raised = options.stop_at_unsupported ? app::RaiseWithStops(context, input, translation, set.module)
                                                   : backends::Raise(input, translation, context.findings);
   if (!raised) return Failure{};

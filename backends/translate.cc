@@ -19,7 +19,9 @@ namespace {
 bool RaiseFor(const TranslateInput& input, Translation& translation, diag::Sink& sink) {
   switch (input.to->language) {
     case dialects::Language::kFanuc:
-      return fanuc::Raise({input.source, input.source_machine, input.to, input.config, input.from}, translation, sink);
+      return fanuc::Raise(
+          {input.source, input.source_machine, input.to, input.config, input.from, input.keep_increments}, translation,
+          sink);
     case dialects::Language::kSinumerik:
       return sinumerik::Raise({input.source, input.from, input.source_machine, input.to, input.config,
                                input.from->language == dialects::Language::kFanuc ? fanuc::ArgumentLetter : nullptr},

@@ -19,6 +19,8 @@ struct TranslateInput {
   const ir::Machine* source_machine = nullptr;  // MachineFor(*from)
   const dialects::Profile* to = nullptr;
   const dialects::Config* config = nullptr;  // may be null
+  bool keep_increments =
+      false;  // increments stay increments where the target has words for them, though it rounds each
 };
 
 /// Comment lines that stand behind the title of a program.

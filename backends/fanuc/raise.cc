@@ -30,6 +30,7 @@
 #include "backends/fanuc/turning_offsets.h"
 #include "backends/fanuc/word_digits.h"
 #include "dialects/fanuc/words.h"
+#include "dialects/machine.h"
 #include "ir/transform/absolute_dimensions.h"
 #include "ir/transform/join_tests.h"
 #include "ir/transform/linear_form.h"
@@ -349,6 +350,41 @@ void DropForeignModes(const RaiseInput& input, Translation& out) {
   }
 }
 
+/// The words of the target that a kept increment can have.
+void ChooseKeptIncrements(const RaiseInput& input, AbsoluteDimensionsConfig& dimensions) {
+  if (!input.keep_increments) return;
+  const dialects::Profile& profile = *input.profile;
+  for (std::uint8_t axis = 0; axis < ir::kMaxAxes; ++axis) {
+    if (HasIncrementLetter(profile, axis))
+      dimensions.keep_axes = static_cast<std::uint16_t>(dimensions.keep_axes | (1U << axis));
+  }
+  const auto system = *dialects::fanuc::SystemOf(profile);
+  const auto incremental = static_cast<std::uint8_t>(ir::Distance::kIncremental);
+  if (dimensions.keep_axes != 0) {
+    dimensions.keep = KeepIncrements::kAxes;
+  } else if (dialects::fanuc::Codes(system).FindMeaning(WordOp::kDistance, incremental) != nullptr) {
+    dimensions.keep = KeepIncrements::kBlocks;
+  }
+  const ir::Machine target = dialects::MachineFor(profile);
+  dimensions.word_error = target.word_error;
+  dimensions.increment = profile.increment.Or(target.increment);
+}
+
+void TellKeptIncrements(const KeptIncrements& kept, Translation& out) {
+  if (kept.drifting != 0)
+    out.assumptions.push_back(
+        fmt::format("{} of {} kept increments are rounded each time they run: what they add up to may drift",
+                    kept.drifting, kept.words));
+  std::string programs;
+  for (const ProgramName& name : out.programs) {
+    if (std::ranges::find(kept.started, name.program) == kept.started.end()) continue;
+    programs += (programs.empty() ? "" : " ") + name.target;
+  }
+  if (programs.empty()) return;
+  out.required.push_back(fmt::format(
+      "CALLS OF {} BEHIND A MOVE OF THE SAME TOOL IN THE SAME COORDINATES: THEY START WITH INCREMENTS", programs));
+}
+
 /// A program that takes its position from cells cuts elsewhere when somebody else calls it.
 void TellCarriedPositions(const CarriedPositions& carried, Translation& out) {
   if (carried.programs.empty()) return;
@@ -428,8 +464,10 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
     const bool split_up = std::ranges::any_of(split.programs, [&](const auto& p) { return p.whole == program; });
     dimensions.frames.restores.push_back(input.source->programs[program].saves_modal_state && !split_up);
   }
+  ChooseKeptIncrements(input, dimensions);
   CarriedPositions carried;
-  ok = AbsoluteDimensions(module, machine, dimensions, sink, &carried) && ok;
+  KeptIncrements kept;
+  ok = AbsoluteDimensions(module, machine, dimensions, sink, &carried, &kept) && ok;
   ReferencesToSteps(input, out);
   ok = ThreadLeads(input, out, sink) && ok;
   ok = RoundFeeds(input, out, sink) && ok;  // while the blocks still say which of them are threads
@@ -459,6 +497,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   if (!names.ok) return false;
   ok = NamePrograms(input, split, out, sink);
   if (ok) TellCarriedPositions(carried, out);
+  TellKeptIncrements(kept, out);
   GuardMacros(input, out);
   if (framed) {
     ok = FrameToolChanges(input, out, sink) && ok;

@@ -16,6 +16,7 @@ struct RaiseInput {
   const dialects::Profile* profile = nullptr;  // of the target
   const dialects::Config* config = nullptr;
   const dialects::Profile* source_profile = nullptr;
+  bool keep_increments = false;  // where the target has words for them
 };
 
 /// What cannot be said is a finding (NC6xxx) at its place, several per run; returns false then.

@@ -246,7 +246,8 @@ Step DimensionPass::AxisStep(BlockId id, std::uint8_t axis) const {
 
 bool DimensionPass::UsesSlot(BlockId id, Slot slot) const {
   if (PassedAt(id) >> slot & 1U) return true;
-  if (UsesForPlane(id, slot) || UsesForFrame(id, slot) || StepOf(id, slot) == Step::kIncremental) return true;
+  if (UsesForPlane(id, slot) || UsesForFrame(id, slot)) return true;
+  if (StepOf(id, slot) == Step::kIncremental && !KeptAt(id, slot)) return true;
   for (const WordId word : module_.blocks[id].words) {
     const Word& center = module_.words[word];
     if (center.op == WordOp::kCenter && center.index == slot && center.mode == ValueMode::kAbsolute) return true;
@@ -681,7 +682,7 @@ void DimensionPass::RewriteWords(BlockId id, const Slots& in) {
     Word word = module_.words[word_id];
     if (word.op == WordOp::kAxis) {
       const Scale scale = ScaleOf(word, word.index, state, id, true);
-      if (scale.known && !scale.incremental) {
+      if (scale.known && (!scale.incremental || KeptAt(id, word.index))) {
         word.value = Scaled(word.value, scale.factor);
       } else if (scale.known && in[word.index].Known()) {
         word.value = ExprOf(module_, Sum(module_, in[word.index].form, ScaledForm(word.value, scale.factor)));
@@ -692,7 +693,9 @@ void DimensionPass::RewriteWords(BlockId id, const Slots& in) {
       RewriteCenter(id, word, in);
     }
     words.push_back(word);
-    if (word.op == WordOp::kAxis) words.back().mode = ValueMode::kAbsolute;
+    if (word.op != WordOp::kAxis) continue;
+    words.back().mode = ValueMode::kAbsolute;
+    if (KeptAt(id, word.index)) words.back().mode = ValueMode::kIncremental;
   }
   if (plane_words_[IndexOf(id)].Moves() && !LowerPlaneWords(id, in, words)) return;
   if (cut_.contains(id.value) && WordOf(id, WordOp::kMotion) == nullptr) {
@@ -788,21 +791,24 @@ bool DimensionPass::RunProgram(ProgramId program) {
 bool DimensionPass::Run() {
   FindRanges();
   FindEffects();
+  FindKept();
   FindCallPositions();
   for (const ProgramId program : module_.programs.Ids()) RunProgram(program);
   if (!ok_) return false;
   for (const ProgramId program : module_.programs.Ids()) {
     program_ = program;
     DropModeWords();
+    if (config_.keep == KeepIncrements::kBlocks && !kept_axes_.empty()) WriteDistanceModes();
   }
   return true;
 }
 
 bool AbsoluteDimensions(Module& module, const Machine& source, const AbsoluteDimensionsConfig& config, diag::Sink& sink,
-                        CarriedPositions* carried) {
+                        CarriedPositions* carried, KeptIncrements* kept) {
   DimensionPass pass(module, source, config, sink);
   const bool ok = pass.Run();
   if (carried != nullptr) *carried = pass.Carried();
+  if (kept != nullptr) *kept = pass.Kept();
   return ok;
 }
 

@@ -12,8 +12,13 @@
 // arcs their centres, senses and sizes as the frame makes them. A frame that is not the same on every way to a move, a
 // computed angle or factor, and what keeps no circle a circle are refused.
 //
-// Afterwards all Axis words are kAbsolute and all Center words kStep (from the start point, radius); Distance,
-// Diameter, OpeningAngle, Via, Turns, Pole and polar words are gone, and lengths are mm.
+// Increments can be kept instead (KeepIncrements) where the target has words for them: a word for one axis, or a mode
+// of the whole block. One is kept where both controls go on from the same place: the axis was moved last in the present
+// coordinates and by the present tool. All others become positions as said above.
+//
+// Afterwards all Axis words are kAbsolute (kIncremental where kept, kModal in blocks under a distance mode) and all
+// Center words kStep (from the start point, radius); Distance, Diameter, OpeningAngle, Via, Turns, Pole and polar words
+// are gone, and lengths are mm.
 #pragma once
 
 #include <cstdint>
@@ -28,6 +33,12 @@
 
 namespace ncport::ir::transform {
 
+enum class KeepIncrements : std::uint8_t {
+  kNo,
+  kAxes,    // as words of their own (U, W)
+  kBlocks,  // under a mode, by blocks all of whose axis words are increments (G91); behind them absolute again
+};
+
 struct AbsoluteDimensionsConfig {
   std::uint8_t diameter_axis = 0xFF;              // of the target: its words are diameters; 0xFF = none
   ModalState sub_entry;                           // state of subprograms that nothing in the module calls ([entry])
@@ -38,6 +49,19 @@ struct AbsoluteDimensionsConfig {
   /// Chamfers and roundings between straight moves that become moves of their own: none, chamfers by their length, all.
   enum class Corners : std::uint8_t { kNone, kByLength, kAll };
   Corners corners_to_moves = Corners::kNone;
+  KeepIncrements keep = KeepIncrements::kNo;
+  std::uint16_t keep_axes = 0;  // bit per axis that has a word for increments (kAxes)
+  /// What the target makes of a computed word on its way to the axis, and the least increment of its words, in mm or
+  /// degrees as the word says them: whether a kept increment is rounded each time.
+  WordError word_error = WordError::kNone;
+  double increment = 0;
+};
+
+/// Increments that were kept.
+struct KeptIncrements {
+  std::uint32_t words = 0;
+  std::uint32_t drifting = 0;      // not proven to be multiples of the target's increment
+  std::vector<ProgramId> started;  // programs whose first increments start where a caller outside of the module stands
 };
 
 /// Programs that find the position in cells when they start or end: nobody else may call them without filling these.
@@ -47,8 +71,9 @@ struct CarriedPositions {
 };
 
 /// All programs of the module. An increment from a position that is not known, and a word under a mode that is not one
-/// value there, are findings (NC5001, NC5006) at the word; returns false then.
+/// value there, are findings (NC5001, NC5006) at the word; returns false then. A kept increment that the target may
+/// round is a warning (NC6015) that says by how much.
 bool AbsoluteDimensions(Module& module, const Machine& source, const AbsoluteDimensionsConfig& config, diag::Sink& sink,
-                        CarriedPositions* carried = nullptr);
+                        CarriedPositions* carried = nullptr, KeptIncrements* kept = nullptr);
 
 }  // namespace ncport::ir::transform

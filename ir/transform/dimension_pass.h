@@ -1,6 +1,6 @@
 // The inside of absolute_dimensions.h: what its parts share. Flow of positions and axis words are in
 // absolute_dimensions.cc, arcs and polar words in absolute_plane.cc, frames in
-// absolute_frames.cc, positions across calls in absolute_calls.cc.
+// absolute_frames.cc, positions across calls in absolute_calls.cc, increments that stay in absolute_kept.cc.
 #pragma once
 
 #include <array>
@@ -14,6 +14,7 @@
 #include "ir/analysis/cfg.h"
 #include "ir/analysis/interval.h"
 #include "ir/analysis/modal_state.h"
+#include "ir/analysis/number_kinds.h"
 #include "ir/builder.h"
 #include "ir/transform/absolute_dimensions.h"
 #include "ir/transform/frame_flow.h"
@@ -104,6 +105,7 @@ class DimensionPass {
 
   bool Run();
   [[nodiscard]] CarriedPositions Carried() const;
+  [[nodiscard]] const KeptIncrements& Kept() const { return kept_; }
 
  private:
   void FindEffects();
@@ -128,6 +130,18 @@ class DimensionPass {
   void PassPositions(BlockId block, Slots& slots, bool emit);
   void LeavePositions(BlockId block, Slots& slots, bool emit);
   void PutPositions(BlockId block, SlotMask which, Slots& slots, bool before, bool emit);
+
+  // Increments that stay.
+  void FindKept();
+  [[nodiscard]] SlotMask KeptOf(ProgramId program, BlockId block, SlotMask settled) const;
+  [[nodiscard]] bool StaysExact(ProgramId program, BlockId block, const Word& word, double factor,
+                                analysis::NumberKinds& kinds) const;
+  void SayDrift(BlockId block, const Word& word, bool diameter);
+  [[nodiscard]] bool KeptAt(BlockId block, Slot slot) const {
+    return !kept_axes_.empty() && (kept_axes_[block.value] >> slot & 1U) != 0;
+  }
+  /// The mode in the blocks of kept increments, and the absolute one behind them.
+  void WriteDistanceModes();
 
   // Analysis of one program.
   [[nodiscard]] Step StepOf(BlockId block, Slot slot) const;
@@ -251,6 +265,9 @@ class DimensionPass {
   std::map<std::uint32_t, analysis::Interval> ranges_;  // values of words that need it; by word
   bool polar_ = false;                                  // some program has polar words
   bool poles_ = false;                                  // some program sets a pole or changes the plane
+
+  std::vector<SlotMask> kept_axes_;  // per block of the module as it came; empty: none is kept
+  KeptIncrements kept_;
 
   std::vector<std::array<VariableId, kSlots>> held_;  // per program
   std::array<SpaceId, kMaxAxes> at_{};                // cells that carry positions over calls

@@ -439,5 +439,134 @@ TEST_CASE("a corner that is longer than its side, or whose side is computed, is 
   }
 }
 
+/// As Absolute, with increments kept; the target rounds to 0.001.
+std::string Kept(const std::string& blocks, diag::Sink& sink, KeepIncrements keep, KeptIncrements& kept) {
+  const std::string cells = std::regex_replace(blocks, std::regex("R\\["), "cell:real R[");
+  const std::string text = test::After("ncport-ir 1\nfile m\nspace R 0..99 real kept all zero\n" + cells, sink,
+                                       [&](Module& module, diag::Sink& findings) {
+                                         Machine machine;
+                                         machine.start.comp = CutterComp::kOff;
+                                         machine.start.motion = Motion::kLinear;
+                                         machine.start.plane = Plane::kXY;
+                                         machine.start.distance = Distance::kAbsolute;
+                                         machine.start.units = Units::kMm;
+                                         machine.start.diameter = Diameter::kRadius;
+                                         AbsoluteDimensionsConfig config;
+                                         config.sub_entry = machine.start;
+                                         config.keep = keep;
+                                         config.keep_axes = 0x27;
+                                         config.word_error = WordError::kRound;
+                                         config.increment = 0.001;
+                                         return AbsoluteDimensions(module, machine, config, findings, nullptr, &kept);
+                                       });
+  const std::string numbers = std::regex_replace(text, std::regex("literal\\(([-0-9.]+), computed\\)"), "$1");
+  return std::regex_replace(numbers, std::regex("cell:real |:(real|int)"), "");
+}
+
+TEST_CASE("kept increments stay words; no local holds a position for them") {
+  diag::Sink sink;
+  KeptIncrements kept;
+  CHECK(Kept("program M main @m:0\n"
+             "  @m:1 : axis X = 1; axis Y = 2\n"
+             "  @m:2 label L : axis X incremental = 1.5; axis Y = 3\n"
+             "  @m:3 : axis Y incremental = R[1]\n"
+             "  @m:4 : jump backward label L = lt!tolerance:bool(R[1], 4)\n",
+             sink, KeepIncrements::kAxes, kept) ==
+        "program M main\n"
+        "axis X absolute = 1; axis Y absolute = 2\n"
+        "label L axis X incremental = 1.5; axis Y absolute = 3\n"
+        "axis Y incremental = R[1]\n"
+        "jump backward label L = lt!tolerance:bool(R[1], 4)\n");
+  CHECK_FALSE(sink.HasErrors());
+  CHECK(kept.words == 2);
+  CHECK(kept.drifting == 1);
+  CHECK(sink.WarningCount() == 1);
+  CHECK(kept.started.empty());
+}
+
+TEST_CASE("under a mode whole blocks stay, and each label is reached under the absolute mode") {
+  diag::Sink sink;
+  KeptIncrements kept;
+  CHECK(Kept("program M main @m:0\n"
+             "  @m:1 : axis X = 1; axis Y = 2\n"
+             "  @m:2 : axis X incremental = 1\n"
+             "  @m:3 label L : axis X incremental = 1; axis Y incremental = 2\n"
+             "  @m:4 : axis X incremental = 3\n"
+             "  @m:5 skip 0 : axis X incremental = 4\n"
+             "  @m:6 : axis X incremental = 5\n"
+             "  @m:7 : axis X = 6; axis Y = 7\n"
+             "  @m:8 : axis X incremental = 8; axis Y = 9\n"
+             "  @m:9 : axis X incremental = 8\n"
+             "  @m:10 : jump backward label L = lt!tolerance:bool(R[1], 4)\n",
+             sink, KeepIncrements::kBlocks, kept) ==
+        "program M main\n"
+        "axis X absolute = 1; axis Y absolute = 2\n"
+        "distance incremental; axis X = 1\n"
+        "label L distance incremental; axis X = 1; axis Y = 2\n"
+        "axis X = 3\n"
+        "axis X = 4\n"
+        "axis X = 5\n"
+        "distance absolute; axis X absolute = 6; axis Y absolute = 7\n"
+        "axis X absolute = 14; axis Y absolute = 9\n"
+        "distance incremental; axis X = 8\n"
+        "distance absolute\n"
+        "jump backward label L = lt!tolerance:bool(R[1], 4)\n");
+  CHECK(sink.All().empty());
+  CHECK(kept.words == 7);
+}
+
+TEST_CASE(
+    "an increment behind a tool, a shift or a work offset becomes a position, and is refused where none is known") {
+  for (const std::string_view between : {"tool = 2", "edge = 2", "work-offset #55", "length-offset = 3"}) {
+    diag::Sink sink;
+    KeptIncrements kept;
+    const std::string text = Kept(
+        "program M main @m:0\n"
+        "  @m:1 : axis Z = 1\n"
+        "  @m:2 : " +
+            std::string(between) +
+            "\n"
+            "  @m:3 : axis Z incremental = 1\n"
+            "  @m:4 : axis Z = 3\n"
+            "  @m:5 : axis Z incremental = 1\n",
+        sink, KeepIncrements::kAxes, kept);
+    CHECK(kept.words == 1);
+    const bool lost = between.starts_with("work");
+    CHECK(sink.HasErrors() == lost);
+    if (!lost)
+      CHECK(text.find("axis Z absolute = 2\naxis Z absolute = 3\naxis Z incremental = 1") != std::string::npos);
+  }
+}
+
+TEST_CASE("a subprogram that nobody calls starts where its caller stands") {
+  diag::Sink sink;
+  KeptIncrements kept;
+  Kept(
+      "program S sub @m:0\n"
+      "  @m:1 : axis X incremental = 1\n",
+      sink, KeepIncrements::kBlocks, kept);
+  CHECK_FALSE(sink.HasErrors());
+  CHECK(kept.started.size() == 1);
+}
+
+TEST_CASE("a whole number times the increment of the target does not drift, half of it does") {
+  for (const bool whole : {true, false}) {
+    diag::Sink sink;
+    KeptIncrements kept;
+    Kept(
+        "program M main @m:0\n"
+        "  @m:1 : axis X = 1\n"
+        "  @m:2 : assign R[1] = 0\n"
+        "  @m:3 label L : axis X incremental = mul:real(" +
+            std::string(whole ? "0.002" : "0.0005") +
+            ", R[1])\n"
+            "  @m:4 : assign R[1] = add:real(R[1], 1)\n"
+            "  @m:5 : jump backward label L = lt!tolerance:bool(R[1], 4)\n",
+        sink, KeepIncrements::kAxes, kept);
+    CHECK(kept.words == 1);
+    CHECK(kept.drifting == (whole ? 0 : 1));
+  }
+}
+
 }  // namespace
 }  // namespace ncport::ir::transform

@@ -188,6 +188,8 @@ class ArcCheck {
       const std::optional<double> value = LiteralValue(module_, word.value);
       const bool from_start = word.mode == ir::ValueMode::kStep || word.mode == ir::ValueMode::kIncremental;
       if (!value || !from_start || word.index >= kAxes || (word.flags & ir::Word::kIncrements) != 0) return;
+      // A centre letter that is not of the plane is the cause, and CheckArcWords tells it.
+      if (word.index != plane[0] && word.index != plane[1]) return;
       center[word.index] = *value;
       has_center = true;
     }

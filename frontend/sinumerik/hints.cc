@@ -27,9 +27,9 @@ class Hints {
   void Run() {
     // Each looks for one kind of slip; the first that fits has the word.
     (void)(GroupIndex() || TornNumber() || LettersInNumber() || NewName() || TornName() || MissingType() ||
-           Comparison() || NoFunction() || NoBrackets() || LooseCell() || NoOperator() || Closer() || Gap() ||
-           SecondSign() || MissingValue() || ForeignName() || TornWord() || ColonOfLabel() || Statement() ||
-           InnerWord() || CommentMark());
+           ForeignOperator() || Dwell() || Comparison() || NoFunction() || NoBrackets() || LooseCell() ||
+           NoOperator() || Closer() || Gap() || SecondSign() || MissingValue() || ForeignName() || TornWord() ||
+           ColonOfLabel() || Statement() || InnerWord() || CommentMark());
     if (!help_.empty()) error_.help = help_.c_str();
   }
 
@@ -171,6 +171,26 @@ class Hints {
     return Say("the types are INT, REAL, BOOL, CHAR, STRING[n], AXIS, FRAME");
   }
 
+  // `R3 GE R4`: the comparisons of other controls are words.
+  bool ForeignOperator() {
+    if (Kind() != K::kName || !IsValue(Before())) return false;
+    const ForeignOperatorWord* foreign = FindForeignOperator(TextOf(at_));
+    if (foreign == nullptr) return false;
+    Put(Code::kUnexpectedText, at_);
+    return Say("{} is written {}", foreign->meaning, foreign->sign);
+  }
+
+  // `G4 P500`, `G4 U2`: the letters of other controls for the time.
+  bool Dwell() {
+    if (at_ >= tokens_.size()) return false;
+    for (std::size_t i = First(); i < at_; ++i) {
+      if (KindAt(i) != K::kCode || !(IsWord(TextOf(i), "G4") || IsWord(TextOf(i), "G04"))) continue;
+      Put(Code::kUnexpectedText, at_);
+      return Say("the time of a dwell stands behind F (seconds) or S (turns of the spindle)");
+    }
+    return false;
+  }
+
   // `=` for `==` and the other way round; `=>`.
   bool Comparison() {
     // `R2:=5`, `R2:5`: the sign of other languages; the colon makes a label.
@@ -185,6 +205,10 @@ class Hints {
       const std::string_view name = TextOf(at_ - 1);
       return Say("a value is set with =: {}={}", name.substr(0, name.find(':')), TextOf(at_));
     }
+    // `IF [R3>5]`: brackets of other controls.
+    if (Kind() == K::kLeftBracket && (Before() == K::kIf || Before() == K::kWhile || Before() == K::kUntil ||
+                                      Before() == K::kEquals || Before() == K::kLeftParen || IsOperator(Before())))
+      return Say("the brackets of an expression are round: (..); an index stands in []");
     const bool condition = Holds(K::kIf) || Holds(K::kWhile) || Holds(K::kUntil) || Holds(K::kCase);
     if ((Kind() == K::kEquals && (Before() == K::kGreater || Before() == K::kLess)) ||
         ((Kind() == K::kGreater || Kind() == K::kLess) && Before() == K::kEquals)) {
@@ -227,8 +251,12 @@ class Hints {
       return Say("an index stands in []");
     if (at_ > 0 && at_ < tokens_.size() && BetweenTokens().find('&') != std::string_view::npos)
       return Say("the word AND joins two conditions");
-    if (Kind() == K::kLeftParen && (Before() == K::kRightParen || Before() == K::kNumber))
-      return Say("an operator is missing between {} and (", TextOf(at_ - 1));
+    if (Kind() == K::kLeftParen && (Before() == K::kRightParen || Before() == K::kNumber)) {
+      if (LooksLikeComment()) return CommentMark();
+      const bool blank = tokens_[at_ - 1].End() < tokens_[at_].offset;
+      return Say("an operator is missing between {} and ({}", TextOf(at_ - 1),
+                 blank ? "; if a comment was meant, it begins with ;" : "");
+    }
     if (Before() == K::kRightParen && Holds(K::kEquals) && (Kind() == K::kNumber || Kind() == K::kCell))
       return Say("an operator is missing between ) and {}", TextOf(at_));
     if (at_ > 1 && Before() == K::kCell && KindAt(at_ - 2) == K::kRightParen &&
@@ -475,9 +503,37 @@ class Hints {
     return false;
   }
 
+  // `(ROUGHING)` in front of a block, behind its words or alone.
   bool CommentMark() {
-    if (Kind() != K::kLeftParen || at_ != First()) return false;
+    if (Kind() != K::kLeftParen) return false;
+    if (at_ != First() && !IsCompleteWord(Before()) && !LooksLikeComment()) return false;
     return Say("a comment begins with ; and brackets hold expressions");
+  }
+  /// A word behind which no bracket can go on.
+  static bool IsCompleteWord(K kind) {
+    return kind == K::kCode || kind == K::kAxisValue || kind == K::kAddressValue || kind == K::kText;
+  }
+  /// A blank in front of the bracket, and up to the end of the line nothing but words without an operator between them.
+  [[nodiscard]] bool LooksLikeComment() const {
+    if (at_ == 0 || tokens_[at_ - 1].End() == tokens_[at_].offset) return false;
+    const std::string_view inside = line_.substr(tokens_[at_].End());
+    const std::size_t end = inside.find(')');
+    if (end == std::string_view::npos || inside.find_first_not_of(" \t\r", end + 1) != std::string_view::npos)
+      return false;
+    bool word = false;
+    bool blank = false;
+    for (const char c : inside.substr(0, end)) {
+      if (IsLetter(c) || IsDigit(c)) {
+        if (word && blank) return true;
+        word = true;
+        blank = false;
+      } else if (c == ' ') {
+        blank = word;
+      } else if (c != '_' && c != '.') {
+        return false;
+      }
+    }
+    return false;
   }
 
   std::span<const Token> tokens_;
@@ -495,8 +551,33 @@ void ExplainSyntax(std::span<const Token> tokens, std::size_t at, std::string_vi
   Hints(tokens, at, line, error, help).Run();
 }
 
+namespace {
+
+/// `M3 (TOOL #1)`, `(100%)`: start of a bracket around `at` that begins the block or stands apart behind a finished
+/// word and closes at the end of the line, as comments of other controls do; npos: there is none.
+std::size_t BracketedComment(std::string_view line, std::size_t at) {
+  const std::size_t open = line.substr(0, at).find('(');
+  const std::size_t last = line.find_last_not_of(" \t\r");
+  if (open == std::string_view::npos || last == std::string_view::npos || line[last] != ')' ||
+      line.substr(0, at).find_first_of("\"=;") < open)
+    return std::string_view::npos;
+  const std::size_t before = open == 0 ? std::string_view::npos : line.find_last_not_of(" \t", open - 1);
+  if (before == std::string_view::npos || (before + 1 < open && IsDigit(line[before]))) return open;
+  return std::string_view::npos;
+}
+
+}  // namespace
+
 void ExplainWord(std::string_view line, LineError& error, std::string& help) {
   help.clear();
+  if (error.begin < line.size()) {
+    if (const std::size_t open = BracketedComment(line, error.begin); open != std::string_view::npos) {
+      help = "a comment begins with ; and brackets hold expressions";
+      error = {.code = Code::kUnexpectedText, .begin = static_cast<std::uint32_t>(open), .length = 1};
+      error.help = help.c_str();
+      return;
+    }
+  }
   if (error.begin >= line.size() || error.help != nullptr) return;
   const char c = Upper(line[error.begin]);
   const std::string_view behind = line.substr(error.begin + 1);
@@ -581,6 +662,44 @@ void ExplainWord(std::string_view line, LineError& error, std::string& help) {
       help = "if a text ends here, its quote is missing in front";
   }
   if (!help.empty()) error.help = help.c_str();
+}
+
+void ExplainFrameSign(std::string_view line, std::uint32_t word, LineError& error, std::string& help) {
+  constexpr std::string_view kFrames[] = {"CTRANS", "CROT", "CSCALE", "CMIRROR", "CFINE", "CROTS", "CRPL"};
+  constexpr std::string_view kOperators = "+-*/";
+  const auto wrong = [&](std::size_t at) {
+    error = {.code = Code::kUnexpectedText, .begin = static_cast<std::uint32_t>(at), .length = 1};
+    help = "frames are chained with :";
+    error.help = help.c_str();
+  };
+  line = line.substr(0, line.find(';'));
+  for (std::size_t at = word; at < line.size();) {
+    std::size_t end = at;
+    while (end < line.size() && (IsLetter(line[end]) || IsDigit(line[end]) || line[end] == '_')) ++end;
+    if (end == at) {
+      ++at;
+      continue;
+    }
+    const std::string_view name = line.substr(at, end - at);
+    const std::size_t open = line.find_first_not_of(" \t", end);
+    const bool frame = std::any_of(std::begin(kFrames), std::end(kFrames),
+                                   [&](std::string_view known) { return IsWord(name, known); });
+    if (frame && open != std::string_view::npos && line[open] == '(') {
+      const std::size_t before = at == 0 ? std::string_view::npos : line.find_last_not_of(" \t", at - 1);
+      if (before != std::string_view::npos && kOperators.find(line[before]) != std::string_view::npos)
+        return wrong(before);
+      int depth = 0;
+      std::size_t close = open;
+      for (; close < line.size(); ++close) {
+        if (line[close] == '(') ++depth;
+        if (line[close] == ')' && --depth == 0) break;
+      }
+      const std::size_t next = close < line.size() ? line.find_first_not_of(" \t", close + 1) : std::string_view::npos;
+      if (next != std::string_view::npos && kOperators.find(line[next]) != std::string_view::npos) return wrong(next);
+      end = close;
+    }
+    at = std::max(end, at + 1);
+  }
 }
 
 bool GoesOn(std::string_view line) {

@@ -20,6 +20,10 @@ void ExplainSyntax(std::span<const Token> tokens, std::size_t at, std::string_vi
 /// A character or word that the tokens do not know.
 void ExplainWord(std::string_view line, LineError& error, std::string& help);
 
+/// Card 8.7: frames are chained with `:`. If another operator stands beside a function that makes a frame, it becomes
+/// the finding; `word` is the first word of the control that ncport does not translate.
+void ExplainFrameSign(std::string_view line, std::uint32_t word, LineError& error, std::string& help);
+
 /// True if the line stops in the middle of a list or an expression in brackets, as texts do that were printed in a
 /// narrow column: there is no continuation line.
 bool GoesOn(std::string_view line);

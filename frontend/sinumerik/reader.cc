@@ -230,6 +230,7 @@ class Reader {
                 .begin = refused->offset,
                 .length = refused->length};
       ExplainRefused(text.substr(refused->offset, refused->length));
+      ExplainFrameSign(text, refused->offset, error_, help_);
       return &error_;
     }
     const Recipe& recipe = recipes_.Of(tokens);

@@ -177,7 +177,11 @@ bool Resolver::UnknownName(ExprId id, std::string_view name) {
   std::string_view near = NearName(name, known);
   const std::string_view address = near.empty() && address_likely_ ? NearAddress(name) : std::string_view();
   if (near.empty()) near = NearValueWord(name);
-  if (const std::string mode = AsModeWithValue(name); !mode.empty()) {
+  const bool is_program = programs_->Find(name).Valid();
+  if (is_program || labels_.contains(key)) {
+    finding.help = std::string(name) + (is_program ? " is a program" : " is a label") +
+                   " here; a name that is handed on is a text and stands in quotes: \"" + std::string(name) + "\"";
+  } else if (const std::string mode = AsModeWithValue(name); !mode.empty()) {
     finding.help = "did you mean " + mode + "?";
   } else if (!address.empty()) {
     finding.help = "did you mean " + std::string(address) + "? A variable is declared with DEF";

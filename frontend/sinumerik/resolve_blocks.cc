@@ -48,6 +48,7 @@ std::optional<double> Literal(const ir::Module& module, ExprId id) {
 bool Resolver::BlockRules(const ir::Block& block) {
   bool ok = OwnBlock(block) && PolarBesideAxis(block) && Lead(block);
   Marks(block);
+  Spindles(block);
   const ir::Word* center = nullptr;
   const ir::Word* radius = nullptr;
   for (const ir::WordId id : block.words) {
@@ -57,6 +58,7 @@ bool Resolver::BlockRules(const ir::Block& block) {
     if (word.op == WordOp::kOpeningAngle) ok = ok && Limit(word, 0, 360, "0 to 360");
     if (word.op == WordOp::kChamfer) ok = ok && Limit(word, 0, 1e300, "0 and above");
     if (word.op == WordOp::kPolarRadius) ok = ok && Limit(word, 0, 1e300, "0 and above");
+    ok = ok && Turn(word);
   }
   if (ok && center != nullptr && radius != nullptr) {
     const SourceRange at = module_.RangeOf(block, *radius);
@@ -75,6 +77,34 @@ bool Resolver::Limit(const ir::Word& word, double low, double high, std::string_
   if (!value || (*value >= low && *value <= high)) return true;
   sink_.Report(Code::kOutOfRange, module_.RangeOf(module_.blocks[block_], word.value), *value, range);
   return false;
+}
+
+// Card 8.5 and 10, row 54: a target that names its way there lies within one turn. One row ends it at 359.999, the
+// other at 360: what lies between them passes.
+bool Resolver::Turn(const ir::Word& word) {
+  if (word.mode != ir::ValueMode::kShortest && word.mode != ir::ValueMode::kPositive &&
+      word.mode != ir::ValueMode::kNegative)
+    return true;
+  return Limit(word, 0, 360, "0 to 359.999");
+}
+
+// Card 8.10: the spindle words of one spindle exclude each other.
+void Resolver::Spindles(const ir::Block& block) {
+  const ir::Word* first = nullptr;
+  for (const ir::WordId id : block.words) {
+    const ir::Word& word = module_.words[id];
+    if (word.op != WordOp::kSpindle) continue;
+    if (first == nullptr || first->index != word.index) {
+      first = first == nullptr ? &word : first;
+      continue;
+    }
+    const SourceRange at = module_.RangeOf(block, word);
+    diag::Diagnostic& finding = sink_.ReportAs(diag::Severity::kWarning, Code::kWordConflict, at,
+                                               Slice(module_.RangeOf(block, *first)), Slice(at));
+    finding.notes.push_back({module_.RangeOf(block, *first), "the first one"});
+    finding.help = "both act on the same spindle: give each a block of its own, or leave out one";
+    return;
+  }
 }
 
 // Card 8.7: TRANS and its kin take the axis words of their block, so a motion word has nothing to move.

@@ -245,8 +245,13 @@ bool Resolver::Operation(ExprId id) {
     default:
       break;
   }
-  if (!IsNumeric(left)) return Mismatch(a, Article(left), "a number");
-  if (!IsNumeric(right)) return Mismatch(b, Article(right), "a number");
+  // Card 4.2, 4.6, 8.7: each kind of value has its own sign.
+  const auto joined_by = [&](Type type) -> std::string_view {
+    if (type == Type::kString) return "texts are joined with <<";
+    return type == Type::kFrame ? "frames are chained with :" : "";
+  };
+  if (!IsNumeric(left)) return Mismatch(a, Article(left), "a number", joined_by(left));
+  if (!IsNumeric(right)) return Mismatch(b, Article(right), "a number", joined_by(right));
   switch (expr.op) {
     case ExprOp::kDivide:
       return set(Type::kReal);

@@ -28,6 +28,11 @@ constexpr ForeignWord kForeignWords[] = {
     {"RETURN", "there is no RETURN: a subprogram ends with RET or M17"},
 };
 
+constexpr ForeignOperatorWord kForeignOperators[] = {
+    {"EQ", "equal", "=="}, {"NE", "not equal", "<>"},     {"GT", "greater", ">"}, {"GE", "greater or equal", ">="},
+    {"LT", "less", "<"},   {"LE", "less or equal", "<="},
+};
+
 /// Words that begin or hold together a block.
 constexpr std::string_view kStatementWords[] = {
     "DEF",    "DEFINE", "PROC",    "EXTERN", "IF",     "ELSE",  "ENDIF",  "WHILE",   "ENDWHILE", "FOR",
@@ -45,6 +50,13 @@ constexpr std::string_view kInnerWords[] = {
 
 const ForeignWord* FindForeignWord(std::string_view word) {
   for (const ForeignWord& foreign : kForeignWords) {
+    if (IsWord(word, foreign.text)) return &foreign;
+  }
+  return nullptr;
+}
+
+const ForeignOperatorWord* FindForeignOperator(std::string_view word) {
+  for (const ForeignOperatorWord& foreign : kForeignOperators) {
     if (IsWord(word, foreign.text)) return &foreign;
   }
   return nullptr;

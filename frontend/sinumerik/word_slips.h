@@ -15,6 +15,15 @@ struct ForeignWord {
 /// THEN, BREAK, NEXT ..; null for other words.
 const ForeignWord* FindForeignWord(std::string_view word);
 
+/// A comparison that other controls write as a word.
+struct ForeignOperatorWord {
+  std::string_view text;     // "GE"
+  std::string_view meaning;  // "greater or equal"
+  std::string_view sign;     // ">="
+};
+/// EQ, NE, GT, GE, LT, LE; null for other words.
+const ForeignOperatorWord* FindForeignOperator(std::string_view word);
+
 /// A word that begins a block, spelled nearly so, or nothing.
 std::string_view NearStatementWord(std::string_view word);
 /// A code with a name (DIAMON, BRISK), spelled nearly so, or nothing.

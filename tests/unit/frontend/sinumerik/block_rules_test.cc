@@ -45,6 +45,20 @@ TEST_CASE("values of words have a range") {
   CHECK(Findings("G1 X5 RND=R1-2\n").empty());
 }
 
+TEST_CASE("a target that names its way lies within one turn") {
+  CHECK(Findings("SPOS=ACN(-90)\n") == "NC2005 1:10 -90 is outside 0 to 359.999\n");
+  CHECK(Findings("SPOS=DC(450)\n") == "NC2005 1:9 450 is outside 0 to 359.999\n");
+  CHECK(Findings("SPOS=ACP(361)\n") == "NC2005 1:10 361 is outside 0 to 359.999\n");
+  CHECK(Findings("SPOS=ACN(270)\nSPOS=ACP(0)\nSPOS=DC(359.99)\nSPOS=ACN(R1)\nSPOS=-90\nSPOS=IC(-90)\n").empty());
+}
+
+TEST_CASE("one spindle takes one spindle word") {
+  CHECK(Findings("S500 M3 M4\n") == "NC1013 1:9 M3 and M4 exclude each other in one block\n");
+  CHECK(Findings("M5 S500 M3\n") == "NC1013 1:9 M5 and M3 exclude each other in one block\n");
+  CHECK(Findings("S500 M3 M2=4\n").empty());
+  CHECK(Findings("S500 M3 M8\nM5 M9\n").empty());
+}
+
 TEST_CASE("passes are 1 to 9999") {
   const std::string sub = "M30\n%_N_L77_SPF\nG0 X1\nM17\n";
   CHECK(Findings("%_N_A_MPF\nL77 P0\n" + sub) == "NC2005 2:5 0 is outside 1 to 9999 passes\n");

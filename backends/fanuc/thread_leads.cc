@@ -96,7 +96,8 @@ Use Leads::UseOf(ProgramId program, BlockId id) const {
   bool lead = false, moves = false, elsewhere = false;
   for (const WordId word_id : block.words) {
     const Word& word = module_.words[word_id];
-    lead = lead || word.op == WordOp::kCenter;
+    // Where the source has the lead in F as well, its words stay.
+    lead = lead || (word.op == WordOp::kCenter && !input_.source_machine->thread_lead_from_feed);
     use.feed = use.feed || word.op == WordOp::kFeed;
     if (word.op == WordOp::kFeed && module_.exprs[word.value].op == ir::ExprOp::kLiteral) use.literal = word.value;
     moves = moves || word.op == WordOp::kAxis || word.op == WordOp::kCenter || word.op == WordOp::kRadius;

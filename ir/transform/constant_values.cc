@@ -231,12 +231,7 @@ std::optional<ConstantValue> ConstantValues::Value(BlockId block, const Constant
   if (OperandsOf(expr.op) != Operands::kBinary) return std::nullopt;
   const auto a = operand(expr.a), b = operand(expr.b);
   if (!a || !b) return std::nullopt;
-  if (a->type == Type::kAxis || b->type == Type::kAxis) {
-    if (a->type != b->type) return std::nullopt;
-    if (expr.op == ExprOp::kEqual) return Truth(a->number == b->number);
-    if (expr.op == ExprOp::kNotEqual) return Truth(a->number != b->number);
-    return std::nullopt;
-  }
+  if (a->type == Type::kAxis || b->type == Type::kAxis) return std::nullopt;
   return Arithmetic(expr, *a, *b);
 }
 

@@ -22,6 +22,7 @@
 #include "backends/fanuc/raise_words.h"
 #include "backends/fanuc/refuse_functions.h"
 #include "backends/fanuc/references.h"
+#include "backends/fanuc/repeat_counts.h"
 #include "backends/fanuc/rotations.h"
 #include "backends/fanuc/shifts.h"
 #include "backends/fanuc/source_meanings.h"
@@ -418,6 +419,8 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   SpecializePrograms(module, machine, entry);
   bool forms = MapModalCalls(input, module, sink);
   forms = RefuseOpenIndices(input, module, sink) && forms;
+  const std::vector<ir::analysis::DeclaredRange> declared = DeclaredRanges(input, module);
+  forms = RefuseOpenRepeats(input, module, declared, sink) && forms;
   {
     const ir::analysis::FlowGraphs graphs(module);
     const ir::analysis::CallGraph calls(module);

@@ -92,6 +92,7 @@ prove::Precision PrecisionOf(const dialects::Profile& profile, const ir::Machine
   precision.word_error = machine.word_error;
   precision.increment = profile.increment.Or(machine.increment);
   precision.diameter_axis = machine.transverse_axis;
+  if (machine.arc_center_corrected) precision.center_moves = machine.circle_tolerance;
   return precision;
 }
 

@@ -57,6 +57,9 @@ std::string SummaryOf(const prove::Verification& verification, const std::vector
   text += fmt::format("  {} of {} branches of the source taken; {} events compared, the longest run had {}\n",
                       verification.branches_taken, verification.branches, verification.events_compared,
                       verification.longest_trace);
+  if (verification.centers_moved > 0)
+    text += fmt::format("  {} times an arc's centre moved along its chord: its rounded words leave two radii\n",
+                        verification.centers_moved);
   if (verification.branches_listed > 0)
     text += fmt::format("  {} of the others ask whether a letter is given, which the calls of this program decide\n",
                         verification.branches_listed);

@@ -17,7 +17,10 @@ struct Precision {
   ir::WordError word_error = ir::WordError::kNone;
   double increment = 0;               // least input increment, mm or degrees
   std::uint8_t diameter_axis = 0xFF;  // the axis on which an error counts half while diameter programming is active
-  double speed_error = 0;             // of an S word, 1/min or m/min: half of one where S takes whole numbers
+  // Of a control that moves the centre of an arc along its chord until both radii agree (sinumerik-8.3): by how much
+  // they may differ, mm. 0: the centre stays as written.
+  double center_moves = 0;
+  double speed_error = 0;  // of an S word, 1/min or m/min: half of one where S takes whole numbers
 };
 
 /// One tool of both sides. A source name is the text of the tool call; numbers otherwise.
@@ -73,6 +76,7 @@ struct Comparison {
   std::optional<Difference> difference;
   std::size_t events_compared = 0;
   std::size_t spindle_moved_across_rapid = 0;  // allowed, listed
+  std::size_t centers_moved = 0;               // by one control only, over the error of their words: allowed, listed
   bool source_alarmed_before_motion = false;
 };
 

@@ -44,6 +44,7 @@ class Comparer {
   void CompareEnds(const exec::Event& a, const exec::Event& b);
   void ComparePositions(const exec::Event& a, const exec::Event& b);
   void CompareMotionDetails(const exec::Event& a, const exec::Event& b);
+  void CompareCenters(const exec::Event& a, const exec::Event& b);
   void CompareSpindles(const exec::Event& a, const exec::Event& b, const Spindles& source, const Spindles& target);
   void CompareSpindle(const exec::Event& a, const exec::Event& b, const SpindleNow& sa, const SpindleNow& sb);
   [[nodiscard]] bool SamePoint(const exec::Event& a, const exec::Event& b) const;

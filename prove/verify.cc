@@ -335,6 +335,7 @@ bool Verifier::ComparePair(const ParameterSet& set, std::uint16_t skip_levels, s
   Comparison comparison = Compare(source_trace_, target_trace_, options_.compare, target_.StartOffset());
   result_.events_compared += comparison.events_compared;
   result_.spindle_moved_across_rapid += comparison.spindle_moved_across_rapid;
+  result_.centers_moved += comparison.centers_moved;
   result_.longest_trace = std::max(result_.longest_trace, source_trace_.Events().size());
   alarmed_ = comparison.source_alarmed_before_motion;
   if (a == exec::Outcome::kAlarmed && !source_trace_.Events().empty()) {

@@ -75,6 +75,7 @@ struct Verification {
   std::vector<ir::BlockId> stops;  // of the source: every run ends here in an alarm, what stands behind was never run
   std::size_t events_compared = 0;
   std::size_t spindle_moved_across_rapid = 0;
+  std::size_t centers_moved = 0;
   std::size_t longest_trace = 0;
 };
 

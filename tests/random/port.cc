@@ -38,11 +38,6 @@ Finding Compare(Port& port, std::uint64_t max_blocks) {
   app::ComparisonSetup setup;
   setup.max_blocks = max_blocks;
   setup.vary_inputs = false;
-  // A value half way between two increments: the source control rounds the word, the output its number by ROUND, and
-  // the last bit decides which neighbour each takes.
-  const bool both_round =
-      port.machine.word_error == ir::WordError::kRound && port.target->language == dialects::Language::kSinumerik;
-  if (both_round) setup.tolerance += port.machine.increment / 2;
   exec::RunOptions run;
   run.entry = port.entry;
   std::vector<prove::Input> varied;

@@ -144,6 +144,44 @@ TEST_CASE("the allowance is half an increment where a control rounds, halved on 
   CHECK(Agree(a, radius, options));
 }
 
+TEST_CASE("a centre that one control moves along the chord is compared with the other one moved likewise") {
+  CompareOptions options;
+  options.source.word_error = ir::WordError::kRound;
+  options.source.increment = 0.001;
+  // From X0 Y1 to X-.063, with I.188 J-.25 as a control rounds 3/16 and 4/16: the radii at both ends differ by 0.0008.
+  const auto compare = [&](double u, double v, double end = 0.938) {
+    Event event;
+    event.kind = EventKind::kArc;
+    event.from[1] = 1;
+    event.position[0] = -0.063;
+    event.position[1] = end;
+    event.known_axes = event.moved_axes = 3;
+    Trace kept, other;
+    event.center[0] = 0.188;
+    event.center[1] = 0.75;
+    kept.Put(event).End();
+    event.center[0] = u;
+    event.center[1] = v;
+    other.Put(event).End();
+    return Compare(kept.recorded, other.recorded, options);
+  };
+  CHECK(compare(0.18598, 0.748012).difference);  // both keep it
+  options.target.center_moves = 0.01;
+  CHECK_FALSE(compare(0.18598, 0.748012).difference);
+  CHECK(compare(0.18598, 0.748012).centers_moved == 1);
+  CHECK(compare(0.188, 0.75).centers_moved == 0);
+  CHECK(compare(0.18598 + 0.0015, 0.748012).difference);
+  CHECK(compare(0.18598, 0.748012 - 0.0015).difference);
+  options.target.center_moves = 0.002;  // it moves by 0.0028
+  CHECK(compare(0.18598, 0.748012).difference);
+  options.source.center_moves = options.target.center_moves = 0.01;  // both move it: these are their centres
+  CHECK(compare(0.18598, 0.748012).difference);
+  // Radii that differ by 0.0039 mean different circles: rounding does not explain that.
+  options.source.center_moves = 0;
+  options.target.center_moves = 0.1;
+  CHECK(compare(0.196677, 0.759641, 0.93).difference);
+}
+
 TEST_CASE("added blocks are left out before, behind and around a tool change, and nowhere else") {
   Trace a;
   a.Rapid(50, 2).Line(50, -5, 1).Number(EventKind::kTool, 2).Rapid(60, 5).Line(60, -1, 1).End();

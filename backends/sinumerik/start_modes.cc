@@ -101,7 +101,7 @@ ir::ModalState ReliedOn(const RaiseInput& input, const Module& module) {
   return relied;
 }
 
-/// The first block behind the definitions, which must come first (sinumerik-1.2).
+/// The first block behind the definitions, which must come first (sinumerik-1.2); none: there are only definitions.
 BlockId FirstStatement(const Module& module, IdRange<BlockId> blocks) {
   BlockId first = blocks[0];
   for (const BlockId id : blocks) {
@@ -114,7 +114,7 @@ BlockId FirstStatement(const Module& module, IdRange<BlockId> blocks) {
     }
     if (module.blocks[id].words.Empty() && first == id) first = BlockId{std::size_t{id.value} + 1};
   }
-  return blocks[blocks.count - 1];
+  return {};
 }
 
 }  // namespace
@@ -140,6 +140,7 @@ void WriteStartModes(const RaiseInput& input, Translation& out, bool only_relied
     if (module.programs[program].kind != ir::ProgramKind::kMain || blocks.Empty()) continue;
     ProgramEditor editor(module, program, "start_modes");
     const BlockId first = only_relied_on ? FirstStatement(module, blocks) : blocks[0];
+    if (!first.Valid()) continue;  // nothing here relies on a mode
     for (const std::vector<Word>* words : {&speed, &modes}) {
       if (words->empty()) continue;
       Block made = editor.MakeBlock(first);

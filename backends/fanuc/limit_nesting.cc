@@ -36,6 +36,8 @@ class Pass {
     for (const ir::WordId word_id : block.words) {
       const Word word = module_.words[word_id];
       if (word.op == WordOp::kCall || word.op == WordOp::kModalCall) LowerCall(word.Extra<ir::CallId>(), id);
+      if (word.op == WordOp::kAssign)
+        module_.words[word_id].extra = Fit(word.Extra<ExprId>(), levels_, id).value;  // the index of the place
       if (!word.value.Valid() || module_.exprs[word.value].type == ir::Type::kString) continue;
       // The condition of WHILE is computed in each pass: StructureToJumps keeps plain ones only.
       if (word.op == WordOp::kWhile || word.op == WordOp::kAlarm) continue;
@@ -101,6 +103,7 @@ class Pass {
     word.extra = local.value;
     word.value = value;
     Block made = editor_.MakeBlock(block);
+    made.skip_level = module_.blocks[block].skip_level;  // what it divides by may be zero then
     editor_.SetWords(made, {word});
     held_.push_back(made);
     return local;

@@ -33,6 +33,7 @@
 #include "dialects/fanuc/words.h"
 #include "dialects/machine.h"
 #include "ir/transform/absolute_dimensions.h"
+#include "ir/transform/fixed_indices.h"
 #include "ir/transform/join_tests.h"
 #include "ir/transform/linear_form.h"
 #include "ir/transform/lower_expressions.h"
@@ -432,6 +433,9 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   EndsToReturns(input, module);
   PiToNumber(module);
   if (!ShiftSkipLevels(input, module, sink)) return false;
+  // Cells of a source of the family keep their numbers, computed or not.
+  if (input.source_profile != nullptr && input.source_profile->language != profile.language)
+    FixIndices(module, machine);
   bool ok = RefuseInputs(input, out, sink) && in_units && forms;
   ok = RefuseTexts(input, module, sink) && ok;
   ok = RefuseRepeatedCalls(input, module, sink) && ok;

@@ -103,6 +103,33 @@ ParameterSet ParameterSource::Next() {
   return set;
 }
 
+std::optional<std::vector<ParameterSet>> ParameterSource::All(std::size_t most) const {
+  std::vector<ParameterSet> sets(1);
+  for (const Input& input : inputs_) {
+    if (input.low_of || input.high_of) return std::nullopt;
+    const bool ends = input.low && input.high;
+    if (!input.boolean && !(ends && (input.integer || *input.low == *input.high))) return std::nullopt;
+    const double first = input.boolean ? 0 : input.integer ? std::ceil(*input.low) : *input.low;
+    const double last = input.boolean ? 1 : input.integer ? std::floor(*input.high) : *input.high;
+    if (!(last - first < static_cast<double>(most))) return std::nullopt;
+    std::vector<double> values;
+    for (double value = first; value <= last; ++value) values.push_back(value);
+    if (input.may_miss) values.push_back(kMissing);
+    const auto seen = input.seen.empty() ? values.end() : std::find(values.begin(), values.end(), input.seen.front());
+    if (seen != values.end()) std::rotate(values.begin(), seen, seen + 1);
+    if (values.size() * sets.size() > most) return std::nullopt;
+    std::vector<ParameterSet> longer;
+    for (const ParameterSet& set : sets) {
+      for (const double value : values) {
+        longer.push_back(set);
+        longer.back().push_back(value);
+      }
+    }
+    sets = std::move(longer);
+  }
+  return sets;
+}
+
 std::optional<ParameterSet> ParameterSource::NextOdd() {
   std::vector<std::size_t> open;
   for (std::size_t i = 0; i < inputs_.size(); ++i) {

@@ -56,6 +56,9 @@ class ParameterSource {
   ParameterSource(std::vector<Input> inputs, std::uint64_t seed);
 
   ParameterSet Next();
+  /// All sets that there are, where every input takes few values (whole numbers between declared ends, BOOL): those of
+  /// the calls seen first. None: more than `most`, or an input without ends of its own.
+  [[nodiscard]] std::optional<std::vector<ParameterSet>> All(std::size_t most) const;
   /// A set in which one input without a declared range is 0, or has the other sign than the calls give it: what
   /// programs refuse. None: all inputs have ranges.
   std::optional<ParameterSet> NextOdd();

@@ -497,7 +497,16 @@ Verification Verifier::Run() {
   covered_.assign(source_.Module().blocks.Size(), 0);
   const bool inputs = !sets_.Inputs().empty();
   const std::uint64_t tries = inputs ? std::uint64_t{options_.runs} * 4 + 64 : 1;
-  for (std::uint64_t i = 0; i < tries && result_.sets_counted < (inputs ? options_.runs : 1); ++i) {
+  // Where the inputs have few values in all, each set is run, and there are no others.
+  std::optional<std::vector<ParameterSet>> all;
+  if (inputs) all = sets_.All(options_.runs);
+  if (all) {
+    for (const ParameterSet& set : *all) {
+      seen_.insert(set);
+      if (!RunSet(set)) break;
+    }
+  }
+  for (std::uint64_t i = 0; !all && i < tries && result_.sets_counted < (inputs ? options_.runs : 1); ++i) {
     const ParameterSet set = sets_.Next();
     if (!seen_.insert(set).second) continue;
     if (!RunSet(set)) break;
@@ -507,9 +516,9 @@ Verification Verifier::Run() {
   if (!Done() && inputs) TryOddValues();
   if (Done()) return std::move(result_);
   CountStops();
-  if (inputs && result_.sets_counted < options_.least_runs) {
+  if (inputs && result_.sets_counted < (all ? 1 : options_.least_runs)) {
     result_.not_compared = fmt::format("only {} of {} parameter sets moved before an alarm; {} are needed",
-                                       result_.sets_counted, result_.sets_run, options_.least_runs);
+                                       result_.sets_counted, result_.sets_run, all ? 1 : options_.least_runs);
   } else if (inputs && !result_.open_branches.empty()) {
     // Without inputs all runs are one: a way that it does not take is never taken.
     result_.not_compared =

@@ -219,5 +219,35 @@ TEST_CASE("verify: the same seed draws the same sets") {
   CHECK(run(3) == run(3));
 }
 
+TEST_CASE("few values in all: every set is run, and that is enough") {
+  Pair pair("  @m:1 : axis X = R[1]; feed = 100\n");
+  pair.Vary(0, 6);
+  Verification real = pair.Run();
+  CHECK(real.sets_counted == 40);  // a REAL has more values than its ends
+  pair.inputs[0].input.integer = true;
+  Verification whole = pair.Run();
+  CHECK(whole.compared);
+  CHECK(whole.sets_counted == 7);
+  CHECK(whole.sets_run == 7);
+
+  // A difference at one value of them is found for sure.
+  Pair other("  @m:1 : axis X = R[1]; feed = 100\n",
+             "  @m:1 : jump forward label L = ne:bool(R[1], 4:real)\n"
+             "  @m:2 : axis X = 99; feed = 100\n"
+             "  @m:3 label L : axis X = R[1]; feed = 100\n");
+  other.Vary(0, 150);
+  other.options.runs = 200;
+  other.inputs[0].input.integer = true;
+  CHECK(other.Run().difference);
+
+  // Without a declared end, and with more sets than runs, the least number of runs stays.
+  Pair open("  @m:1 : axis X = R[1]; feed = 100\n");
+  open.Vary(0, 6);
+  open.inputs[0].input.integer = true;
+  open.inputs[0].input.high.reset();
+  open.options.runs = 5;
+  CHECK_FALSE(open.Run().compared);
+}
+
 }  // namespace
 }  // namespace ncport::prove

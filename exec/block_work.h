@@ -41,6 +41,7 @@ struct BlockWork {
     kRotateEnd = 1U << 26U,  // these may stand beside each other and beside an operation with values
     kScaleEnd = 1U << 27U,
     kMirrorEnd = 1U << 28U,  // its axis words name axes
+    kPoint = 1U << 29U,      // the number of a reference point
     kFrameEnds = kRotateEnd | kScaleEnd | kMirrorEnd,
   };
 
@@ -77,6 +78,7 @@ struct BlockWork {
   ir::ChamferKind chamfer_kind;
   ir::FrameOp frame;
   ir::ReferenceKind reference;
+  double point;
   ir::PoleBase pole;
   bool dwell_revolutions;
   ir::Motion one_shot;

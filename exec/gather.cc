@@ -203,6 +203,10 @@ void Runner::Collect(const Word& word, const Value& value) {
       work_.reference = static_cast<ir::ReferenceKind>(word.index);
       work_.has |= BlockWork::kReference;
       return;
+    case WordOp::kInert:
+      // Beside a reference move a value numbers the point (FP, P of G30); elsewhere nobody asks for it.
+      if (word.value.Valid() && !value.IsText()) put(work_.point, BlockWork::kPoint);
+      return;
     case WordOp::kPole:
       work_.pole = static_cast<ir::PoleBase>(word.index);
       work_.has |= BlockWork::kPole;

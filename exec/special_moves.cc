@@ -137,6 +137,7 @@ void Kinematics::ReferenceMove(const BlockWork& work) {
   Event& event = emitter_.BeginMotion(EventKind::kReference, from_);
   event.moved_axes = work.axes;
   event.number = static_cast<std::uint32_t>(work.reference);
+  if (work.Has(BlockWork::kPoint) && work.point > 0) event.extension = static_cast<std::uint32_t>(work.point);
   emitter_.Send(event);
   channel_.base_known &= static_cast<std::uint16_t>(~work.axes);
   channel_.work_known = channel_.frame.ToWork(channel_.base, channel_.base_known, channel_.work);

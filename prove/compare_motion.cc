@@ -46,16 +46,23 @@ std::optional<exec::Point> Moved(const Event& arc, double radii, double most) {
   return exec::Point{center.u - along * u / chord, center.v - along * v / chord};
 }
 
+/// Which one of the points of its kind: the first fixed point and the second reference point need no number.
+std::uint32_t PointNumber(const Event& event) {
+  if (event.extension != 0) return event.extension;
+  return event.number == static_cast<std::uint32_t>(ir::ReferenceKind::kSecondReference) ? 2 : 1;
+}
+
 /// The first fixed point of one language is the reference point of another (sinumerik-12.2).
 bool IsFirst(const Event& event) {
   return event.number == static_cast<std::uint32_t>(ir::ReferenceKind::kReference) ||
-         event.number == static_cast<std::uint32_t>(ir::ReferenceKind::kFixedPoint);
+         (event.number == static_cast<std::uint32_t>(ir::ReferenceKind::kFixedPoint) && PointNumber(event) == 1);
 }
 
 }  // namespace
 
 bool Comparer::SamePoint(const Event& a, const Event& b) const {
-  return a.number == b.number || (options_.maps.cross_language && IsFirst(a) && IsFirst(b));
+  return (a.number == b.number && PointNumber(a) == PointNumber(b)) ||
+         (options_.maps.cross_language && IsFirst(a) && IsFirst(b));
 }
 
 std::string AxisName(std::uint8_t axis) {

@@ -458,6 +458,33 @@ TEST_CASE("tools of one number with other decimals, reference points and signs o
   CHECK_FALSE(agree(one(EventKind::kOffset, 1, 0, false), one(EventKind::kOffset, 1, 0, true)));
 }
 
+TEST_CASE("reference points of one kind are told apart by their number") {
+  const auto agree = [](ir::ReferenceKind a, std::uint32_t point_a, ir::ReferenceKind b, std::uint32_t point_b) {
+    Trace left, right;
+    Event event;
+    event.kind = EventKind::kReference;
+    event.number = static_cast<std::uint32_t>(a);
+    event.extension = point_a;
+    left.Put(event).End();
+    event.number = static_cast<std::uint32_t>(b);
+    event.extension = point_b;
+    right.Put(event).End();
+    CompareOptions options;
+    options.maps.cross_language = true;
+    return Agree(left, right, options);
+  };
+  constexpr auto kFixed = ir::ReferenceKind::kFixedPoint;
+  constexpr auto kSecond = ir::ReferenceKind::kSecondReference;
+  constexpr auto kReference = ir::ReferenceKind::kReference;
+  CHECK_FALSE(agree(kFixed, 1, kFixed, 2));
+  CHECK(agree(kFixed, 0, kFixed, 1));
+  CHECK(agree(kFixed, 2, kFixed, 2));
+  CHECK(agree(kReference, 0, kFixed, 1));
+  CHECK_FALSE(agree(kReference, 0, kFixed, 2));
+  CHECK(agree(kSecond, 0, kSecond, 2));
+  CHECK_FALSE(agree(kSecond, 0, kSecond, 3));
+}
+
 TEST_CASE("an alarm without a number is known by its class") {
   Trace numbered, plain, range;
   numbered.Alarm(ir::AlarmClass::kArithmetic, "PS0112");

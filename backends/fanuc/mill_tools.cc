@@ -88,6 +88,11 @@ std::optional<TargetWords> Parse(std::string_view words) {
   return parsed;
 }
 
+/// The words of a tool call bring the tool in.
+bool HasChange(std::string_view call) {
+  return call.find(" M6") != std::string_view::npos || call.find(" M06") != std::string_view::npos;
+}
+
 std::optional<std::uint32_t> WholeNumber(const Module& module, ExprId id) {
   if (!id.Valid()) return std::nullopt;
   const ir::Expr& expr = module.exprs[id];
@@ -398,6 +403,12 @@ void Mapper::Rewrite(ProgramId program) {
       } else if (changes) {
         if (const TargetWords* target = Target(now.tool, now.edge, at)) {
           const bool ready = words.tool == nullptr;  // called by its T word already
+          if (!ready && words.change && !HasChange(target->call)) {
+            Refuse(at,
+                   fmt::format("{} as \"{}\", words without M6 that change no tool,", SourceWords(now.tool, now.edge),
+                               target->call),
+                   "write the change into the row of [tools]:  T1 M6 H1 D1");
+          }
           call = ready ? "M6" : target->call;
         }
       } else if (words.tool != nullptr && now.prepared > 0) {
@@ -406,7 +417,7 @@ void Mapper::Rewrite(ProgramId program) {
       }
     }
     // Only a change that the source's tool word makes by itself adds an M6.
-    if (words.tool != nullptr && !words.change && call.find(" M6") != std::string::npos) out_.tool_change_added = true;
+    if (words.tool != nullptr && !words.change && HasChange(call)) out_.tool_change_added = true;
 
     std::vector<Word> kept;
     for (const WordId word_id : block.words) {

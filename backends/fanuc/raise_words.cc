@@ -300,7 +300,8 @@ bool MapTools(const RaiseInput& input, Translation& out, diag::Sink& sink) {
         const bool off = lathe && !changes_by_m6 && edge != nullptr && use.source_edge == 0;
         finding.help = fmt::format(
             "add to ncport.toml, with the words of your machine:  [tools]  {0}{1}{0} = \"{2}\"{3}", quote,
-            use.source_words, off ? "T0100" : example, off ? "  (the station of the tool, its offset off)" : "");
+            use.source_words, off ? fmt::format("T{:02}00", use.source_tool == 0 ? 1 : use.source_tool) : example,
+            off ? "  (the station of the tool, its offset off)" : "");
         ok = false;
         continue;
       }

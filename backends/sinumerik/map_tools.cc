@@ -237,7 +237,10 @@ class Pass {
     const std::string t = fmt::format("T{}", tool);
     std::vector<std::string> keys;
     if (radius != 0) keys.push_back(fmt::format("{} H{} D{}", t, length, radius));
-    keys.push_back(fmt::format("{} H{}", t, length));
+    // Without a D a row stands for one radius: an edge has one.
+    const auto radius_of = radius_of_.try_emplace({tool, length}, radius).first;
+    if (radius_of->second == 0) radius_of->second = radius;
+    if (radius == 0 || radius_of->second == radius) keys.push_back(fmt::format("{} H{}", t, length));
     // The tool alone stands for one length and one radius.
     const auto [fixed, added] = fixed_.try_emplace(tool, std::pair{length, radius});
     const bool same_length = fixed->second.first == length;
@@ -497,6 +500,7 @@ class Pass {
   ir::analysis::ForwardFlow<Pass> selections_;
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, TargetTool> found_;
   std::map<std::uint32_t, std::pair<std::uint32_t, std::uint32_t>> fixed_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> radius_of_;  // by tool and length; 0: none yet
   std::set<std::string> asked_;
   bool ok_ = true;
 };

@@ -81,10 +81,12 @@ void Sweep::Vectors(bool list) {
     refused[line.substr(0, end)] = line.substr(end + 1);
   }
   std::size_t equal = 0, all = 0;
+  const std::string integrex = (root_ / "samples/turning_cycle/integrex_old.toml").string();
   const std::pair<std::string, std::string> targets[] = {{"fanuc-mill", "fanuc-mill"},
                                                          {"fanuc-lathe-a", "fanuc-lathe-a"},
                                                          {"fanuc-lathe-b", "fanuc-lathe-b"},
-                                                         {"mazak-qtn", (root_ / "tests/port/qtn.toml").string()}};
+                                                         {"mazak-qtn", (root_ / "tests/port/qtn.toml").string()},
+                                                         {"mazak-integrex-old", integrex}};
   for (const Vector& vector : ListVectors(root_ / "tests/vectors")) {
     if (vector.language != "sinumerik") continue;
     for (const auto& [name, profile] : targets) {
@@ -184,8 +186,11 @@ int Sweep::Run(bool list) {
         "sinumerik-840d-mill",
         mills,
         {"M98 P1", "M98 P2", "IF[#103 LE 360]"}});
-  Port(
-      {"turning_cycle", {"main.mpf", "turning_cycle.spf"}, "sinumerik-840d-lathe", {"qtn.toml"}, {"G65 P4001", "IF["}});
+  Port({"turning_cycle",
+        {"main.mpf", "turning_cycle.spf"},
+        "sinumerik-840d-lathe",
+        {"qtn.toml", "integrex.toml", "integrex_old.toml"},
+        {"G65 P4001", "IF["}});
   std::printf("%d passed, %d failed\n", passed_, failures_);
   return failures_ == 0 ? 0 : 1;
 }

@@ -33,6 +33,7 @@
 #include "dialects/fanuc/words.h"
 #include "dialects/machine.h"
 #include "ir/transform/absolute_dimensions.h"
+#include "ir/transform/feeds_to_numbers.h"
 #include "ir/transform/fixed_indices.h"
 #include "ir/transform/join_tests.h"
 #include "ir/transform/linear_form.h"
@@ -190,9 +191,9 @@ bool CheckLegal(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   for (const ir::ProgramId program : module.programs.Ids()) {
     for (const ir::BlockId id : module.programs[program].blocks) {
       const ir::Block& block = module.blocks[id];
-      const auto refuse = [&](const Word& word, std::string_view what) {
+      const auto refuse = [&](const Word& word, std::string_view what) -> diag::Diagnostic& {
         ok = false;
-        sink.Report(diag::Code::kNotExpressible, module.RangeOf(block, word), what, profile.name);
+        return sink.Report(diag::Code::kNotExpressible, module.RangeOf(block, word), what, profile.name);
       };
       // A setting that the profile leaves open is named once.
       const auto need = [&](const auto& setting, const Word& word) {
@@ -211,7 +212,10 @@ bool CheckLegal(const RaiseInput& input, Translation& out, diag::Sink& sink) {
           VisitReads(module, value, [&](ir::ExprId read) {
             const ir::Expr& expr = module.exprs[read];
             if (expr.op != ir::ExprOp::kSystem) return;
-            refuse(word, module.View(module.systems[ir::SystemId{expr.a}].name));
+            const ir::System& system = module.systems[ir::SystemId{expr.a}];
+            diag::Diagnostic& finding = refuse(word, module.View(system.name));
+            if (system.kind == ir::SystemKind::kActiveFeed)
+              finding.help = "where F is one number on every way to this block, that number stands for it";
           });
         };
         values(word.value);
@@ -417,7 +421,14 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   const bool framed = NeedFrame(input, sink);
   // Another Fanuc control's X100 is 0.1 mm: the value, since here every number gets its point.
   const bool in_units = ResolveIncrements(module, machine, entry, sink);
-  SpecializePrograms(module, machine, entry);
+  // Here every cycle has one text for all its calls, behind specialisation one for each kind of call.
+  if (input.source_profile != nullptr && input.source_profile->language != profile.language) {
+    FeedsToNumbers(module, machine, entry);
+    SpecializePrograms(module, machine, entry);
+    FeedsToNumbers(module, machine, entry);
+  } else {
+    SpecializePrograms(module, machine, entry);
+  }
   bool forms = MapModalCalls(input, module, sink);
   forms = RefuseOpenIndices(input, module, sink) && forms;
   const std::vector<ir::analysis::DeclaredRange> declared = DeclaredRanges(input, module);

@@ -135,7 +135,7 @@ void CheckFlow(Context& context, const app::ProgramSet& set, const CheckOptions&
     if (set.module.programs[program].library) continue;
     check::CheckUnreachable(set.module, program, subject.graphs, context.findings);
     check::CheckComparisons(set.module, program, context.findings);
-    check::CheckExactLoopEnds(set.module, program, context.findings);
+    check::CheckExactLoopEnds(set.module, program, subject.graphs, context.findings);
   }
   const check::ValueRuleOptions rules = app::ValueRuleOptionsFor(context, set, options.config);
   (void)check::CheckValues(set.module, subject.machine, subject.graphs, subject.calls, rules, context.findings);

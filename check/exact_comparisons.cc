@@ -48,8 +48,8 @@ void CheckExactComparisons(const Subject& subject, ir::ProgramId program, diag::
         SourceRange at = module.RangeOf(block, found);
         if (at.end <= at.begin) at = module.RangeOf(block, module.words[word]);
         const bool unequal = module.exprs[found].op == ExprOp::kNotEqual;
-        sink.Report(diag::Code::kExactComparison, at, fmt::format("{}{:.10g}", unequal ? "not " : "", fraction)).help =
-            "compare with a band, for example ABS of the difference below 0.001";
+        sink.Report(diag::Code::kExactComparison, at, unequal ? "false" : "true", fmt::format("{:.10g}", fraction))
+            .help = "compare with a band, for example ABS of the difference below 0.001";
       });
     }
   }

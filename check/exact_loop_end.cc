@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "check/places.h"
 #include "check/structure_rules.h"
 
 namespace ncport::check {
@@ -23,18 +24,6 @@ ExprId Bare(const ir::Module& module, ExprId id) {
   }
 }
 
-bool SamePlace(const Expr& a, const Expr& b) {
-  return a.op == b.op && a.a == b.a && (a.op == ExprOp::kVariable || (a.op == ExprOp::kCell && a.b == b.b));
-}
-
-bool IsPlace(const Expr& expr) { return expr.op == ExprOp::kVariable || expr.op == ExprOp::kCell; }
-
-std::string NameOf(const ir::Module& module, const Expr& place) {
-  if (place.op == ExprOp::kVariable)
-    return std::string(module.View(module.variables[ir::VariableId{std::size_t{place.a}}].name));
-  return fmt::format("{}{}", module.View(module.spaces[ir::SpaceId{std::size_t{place.a}}].name), place.b);
-}
-
 /// `place = place + 0.1`, also with minus: a step that binary numbers do not hold exactly.
 bool StepsInFractions(const ir::Module& module, const ir::Word& word, const Expr& place) {
   if (word.op != WordOp::kAssign || !SamePlace(module.exprs[word.Extra<ExprId>()], place)) return false;
@@ -51,8 +40,9 @@ bool StepsInFractions(const ir::Module& module, const ir::Word& word, const Expr
 
 class ExactLoopEnds {
  public:
-  ExactLoopEnds(const ir::Module& module, ir::ProgramId program, diag::Sink& sink)
-      : module_(module), program_(program), sink_(sink) {}
+  ExactLoopEnds(const ir::Module& module, ir::ProgramId program, const ir::analysis::FlowGraphs& graphs,
+                diag::Sink& sink)
+      : module_(module), program_(program), graphs_(graphs), sink_(sink) {}
 
   void Run() {
     for (const BlockId id : module_.programs[program_].blocks) {
@@ -65,6 +55,9 @@ class ExactLoopEnds {
             break;
           case WordOp::kUntil:
             if (block.link.Valid()) Test(block.link, id, block, word, ExprOp::kEqual);
+            break;
+          case WordOp::kJump:
+            JumpBack(id, block, word);
             break;
           case WordOp::kFor:
             Start(block, word);
@@ -89,8 +82,9 @@ class ExactLoopEnds {
       for (std::uint32_t i = first.value; i <= last.value; ++i) {
         for (const ir::WordId id : module_.blocks[BlockId{std::size_t{i}}].words) {
           if (!StepsInFractions(module_, module_.words[id], place)) continue;
-          diag::Diagnostic& finding = sink_.Report(diag::Code::kExactLoopEnd, module_.RangeOf(block, word),
-                                                   NameOf(module_, place), EndText(module_.exprs[sides[1 - side]]));
+          diag::Diagnostic& finding =
+              sink_.Report(diag::Code::kExactLoopEnd, module_.RangeOf(block, word), NameOfPlace(module_, place),
+                           EndText(module_.exprs[sides[1 - side]]));
           finding.notes.push_back({module_.RangeOf(module_.blocks[BlockId{std::size_t{i}}], module_.words[id]),
                                    "its steps are no exact binary numbers"});
           finding.help = "compare with < or >, or count in whole numbers";
@@ -102,7 +96,17 @@ class ExactLoopEnds {
 
   [[nodiscard]] std::string EndText(const Expr& end) const {
     if (end.op == ExprOp::kLiteral) return fmt::format("{:.10g}", end.number);
-    return IsPlace(end) ? NameOf(module_, end) : "its end";
+    return IsPlace(end) ? NameOfPlace(module_, end) : "its end";
+  }
+
+  /// `IF [#1 NE 5] GOTO 10` with N10 above it is a loop as well.
+  void JumpBack(BlockId id, const ir::Block& block, const ir::Word& word) {
+    if (!word.value.Valid()) return;
+    const ir::Jump& jump = module_.jumps[word.Extra<ir::JumpId>()];
+    const BlockId first = graphs_.LabelsOf(program_).Find(jump.target, id, jump.search);
+    if (!first.Valid() || first > id) return;
+    looked_ += id.value - first.value;
+    if (looked_ <= kMostLooked) Test(first, id, block, word, ExprOp::kNotEqual);
   }
 
   /// The control rounds the counter when the loop starts.
@@ -119,14 +123,19 @@ class ExactLoopEnds {
   }
 
   const ir::Module& module_;
+  static constexpr std::uint64_t kMostLooked = 5'000'000;  // blocks, all jumps of the program together
+
   ir::ProgramId program_;
+  const ir::analysis::FlowGraphs& graphs_;
   diag::Sink& sink_;
+  std::uint64_t looked_ = 0;
 };
 
 }  // namespace
 
-void CheckExactLoopEnds(const ir::Module& module, ir::ProgramId program, diag::Sink& sink) {
-  ExactLoopEnds{module, program, sink}.Run();
+void CheckExactLoopEnds(const ir::Module& module, ir::ProgramId program, const ir::analysis::FlowGraphs& graphs,
+                        diag::Sink& sink) {
+  ExactLoopEnds{module, program, graphs, sink}.Run();
 }
 
 }  // namespace ncport::check

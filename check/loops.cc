@@ -6,6 +6,8 @@
 #include <optional>
 #include <set>
 
+#include "check/expressions.h"
+#include "check/places.h"
 #include "check/value_rules.h"
 
 namespace ncport::check {
@@ -81,7 +83,8 @@ class Loops final : public ValueRule {
     }
     switch (*mark) {
       case WordOp::kWhile: {
-        const bool fixed = seen && truth->second.low == 1 && IsConstant(block);
+        const bool fixed =
+            seen && truth->second.low == 1 && (IsConstant(block) || StepsAway(id, block.link, block, true));
         const bool frozen = !fixed && Frozen(program, id, block.link, id);
         if ((fixed || frozen) && !LeavesElsewhere(graph, id, block.link)) Endless(at, id, frozen, sink);
         return;
@@ -90,7 +93,8 @@ class Loops final : public ValueRule {
         if (!LeavesElsewhere(graph, id, block.link)) Endless(at, id, false, sink);
         return;
       case WordOp::kUntil: {
-        const bool fixed = seen && truth->second.high == 0 && IsConstant(block);
+        const bool fixed =
+            seen && truth->second.high == 0 && (IsConstant(block) || StepsAway(block.link, id, block, false));
         const bool frozen = !fixed && Frozen(program, block.link, id, id);
         if ((fixed || frozen) && !LeavesElsewhere(graph, block.link, id)) Endless(at, id, frozen, sink);
         return;
@@ -115,6 +119,41 @@ class Loops final : public ValueRule {
     bool reads = false;
     ForOperands(expr, [&](ExprId operand) { reads = reads || ReadsAnything(operand); });
     return reads;
+  }
+
+  /// A comparison of one place with a literal, and steps of the place that lead away from it: `WHILE R1>0` around
+  /// `R1=R1+1`. Values that a division or a root lets through play no part. `holds`: what the comparison stays.
+  [[nodiscard]] bool StepsAway(BlockId first, BlockId last, const ir::Block& test, bool holds) const {
+    const ir::Module& module = input_.module;
+    const ExprId condition = test.words.Empty() ? ExprId{} : module.words[test.words[0]].value;
+    if (!condition.Valid()) return false;
+    const Expr& compare = module.exprs[Bare(condition)];
+    const bool above = compare.op == ExprOp::kGreater || compare.op == ExprOp::kGreaterEqual;
+    if (!above && compare.op != ExprOp::kLess && compare.op != ExprOp::kLessEqual) return false;
+    const Expr& place = module.exprs[Bare(ExprId{std::size_t{compare.a}})];
+    if (!IsPlace(place) || !LiteralValue(module, ExprId{std::size_t{compare.b}})) return false;
+    const double wanted = above == holds ? 1 : -1;  // sign of the steps
+    bool steps = false;
+    for (std::uint32_t i = first.value; i <= last.value; ++i) {
+      for (const ir::WordId id : module.blocks[BlockId{std::size_t{i}}].words) {
+        const ir::Word& word = module.words[id];
+        if (MayTouchPlace(module, word, place)) return false;
+        if (!SetsPlace(module, word, place)) continue;
+        if (word.op != WordOp::kAssign || StepOf(word.value, place) * wanted <= 0) return false;
+        steps = true;
+      }
+    }
+    return steps;
+  }
+
+  /// The literal step of `place + 1`, signed; 0: it is none.
+  [[nodiscard]] double StepOf(ExprId value, const Expr& place) const {
+    const ir::Module& module = input_.module;
+    const Expr& sum = module.exprs[Bare(value)];
+    if (sum.op != ExprOp::kAdd && sum.op != ExprOp::kSubtract) return 0;
+    if (!SamePlace(module.exprs[Bare(ExprId{std::size_t{sum.a}})], place)) return 0;
+    const std::optional<double> step = LiteralValue(module, ExprId{std::size_t{sum.b}});
+    return !step ? 0 : sum.op == ExprOp::kAdd ? *step : -*step;
   }
 
   void Endless(const SourceRange& at, BlockId id, bool frozen, diag::Sink& sink) {

@@ -17,6 +17,7 @@ void CheckComparisons(const ir::Module& module, ir::ProgramId program, diag::Sin
 
 /// Loops that end only when a value that goes in fractions meets another one exactly, and FOR with a start that is no
 /// whole number.
-void CheckExactLoopEnds(const ir::Module& module, ir::ProgramId program, diag::Sink& sink);
+void CheckExactLoopEnds(const ir::Module& module, ir::ProgramId program, const ir::analysis::FlowGraphs& graphs,
+                        diag::Sink& sink);
 
 }  // namespace ncport::check

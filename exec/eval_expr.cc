@@ -135,7 +135,8 @@ double Evaluator::ToNumber(const Value& value) {
 
 /// Operand of arithmetic. A vacant one is 0 where the language says so; elsewhere nothing vacant can come up.
 double Evaluator::Operand(const Value& value, const Expr& expr) {
-  if (value.IsVacant() && (expr.flags & Expr::kVacantAsZero) == 0) session_.Refuse(diag::Code::kVacantValue, "operand");
+  if (value.IsVacant() && (expr.flags & Expr::kVacantAsZero) == 0)
+    session_.Refuse(diag::Code::kCannotRun, "an empty value in arithmetic");
   return ToNumber(value);
 }
 

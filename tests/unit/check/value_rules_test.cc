@@ -47,7 +47,7 @@ Result Check(std::string_view profile_name, const std::vector<File>& texts,
   for (const ir::ProgramId program : module.programs.Ids()) {
     CheckUnreachable(module, program, subject.graphs, sink);
     CheckComparisons(module, program, sink);
-    CheckExactLoopEnds(module, program, sink);
+    CheckExactLoopEnds(module, program, subject.graphs, sink);
   }
   sink.SortByPlace();
   for (const diag::Diagnostic& finding : sink.All()) {

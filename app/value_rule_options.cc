@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "dialects/finding_alarms.h"
 #include "dialects/language.h"
 
 namespace ncport::app {
@@ -26,6 +27,7 @@ check::ValueRuleOptions ValueRuleOptionsFor(const Context& context, const Progra
   check::ValueRuleOptions options;
   options.files = &context.files;
   options.control = fmt::format("{} alarm", dialects::TitleOf(set.profile.language));
+  options.domain_alarm = dialects::AlarmFor(set.profile, diag::Code::kOutOfDomain);
   options.test_example = dialects::TestExampleOf(set.profile.language);
   if (config == nullptr) return options;
   for (const ir::ProgramId program : set.module.programs.Ids()) {

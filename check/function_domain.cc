@@ -48,6 +48,7 @@ class FunctionDomain final : public ValueRule {
     finding.at = RangeOf(site, id);
     finding.notes = Reasons(site, argument, lookup);
     finding.help = too_large ? "" : "test the value first";
+    if (!too_large) finding.control = input_.options.domain_alarm;
     findings_.Add(id, 0, std::move(finding));
   }
 

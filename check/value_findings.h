@@ -24,6 +24,7 @@ enum class Certainty : std::uint8_t { kPossible, kLikely, kCertain };
 struct ValueRuleOptions {
   const SourceFiles* files = nullptr;  // for texts of expressions
   std::string control;                 // "NAME alarm", put before the number of an alarm; empty: no alarm is named
+  std::string domain_alarm;            // of a function outside of its domain, whole; empty: none is certain
   std::string test_example;            // how a program of the language tests a value first; {0} is the value
   std::vector<ir::analysis::DeclaredRange> declared;
   bool all = false;  // also kPossible

@@ -62,7 +62,7 @@ void ResolveNames(SourceFiles& files, ir::Module& module, const dialects::Profil
       sinumerik::ResolveNames(files, module, profile, sink);
       return;
     case dialects::Language::kFanuc:
-      fanuc::ResolveNames(module, sink);
+      fanuc::ResolveNames(module, profile, sink);
       return;
     case dialects::Language::kNum:
     case dialects::Language::kLinuxCnc:

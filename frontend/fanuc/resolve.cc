@@ -4,6 +4,7 @@
 #include <string>
 #include <unordered_set>
 
+#include "dialects/finding_alarms.h"
 #include "frontend/common/program_names.h"
 #include "frontend/fanuc/reader.h"
 
@@ -15,7 +16,8 @@ using ir::WordOp;
 
 class Resolver {
  public:
-  Resolver(ir::Module& module, diag::Sink& sink) : module_(module), names_(module), sink_(sink) {}
+  Resolver(ir::Module& module, const dialects::Profile& profile, diag::Sink& sink)
+      : module_(module), profile_(profile), names_(module), sink_(sink) {}
 
   void Run() {
     for (const ir::ProgramId program : module_.programs.Ids()) {
@@ -42,8 +44,10 @@ class Resolver {
     if (!call.program.Valid()) Split(name, call);
     if (!call.program.Valid() && missing_.insert(call.name.value).second) {
       // The block stays: a run that gets there ends in the alarm of the control.
-      sink_.Report(diag::Code::kUnknownProgram, module_.RangeOf(module_.blocks[block], word), name).help =
-          "give its file too, or name its folder with -I";
+      diag::Diagnostic& finding =
+          sink_.Report(diag::Code::kUnknownProgram, module_.RangeOf(module_.blocks[block], word), name);
+      finding.help = "give its file too, or name its folder with -I";
+      finding.control = dialects::AlarmFor(profile_, finding.code);
     }
   }
 
@@ -66,6 +70,7 @@ class Resolver {
   }
 
   ir::Module& module_;
+  const dialects::Profile& profile_;
   ProgramNames names_;
   diag::Sink& sink_;
   std::unordered_set<std::uint32_t> missing_;
@@ -73,6 +78,8 @@ class Resolver {
 
 }  // namespace
 
-void ResolveNames(ir::Module& module, diag::Sink& sink) { Resolver(module, sink).Run(); }
+void ResolveNames(ir::Module& module, const dialects::Profile& profile, diag::Sink& sink) {
+  Resolver(module, profile, sink).Run();
+}
 
 }  // namespace ncport::frontend::fanuc

@@ -2,6 +2,7 @@
 #include <string>
 
 #include "base/result.h"
+#include "dialects/finding_alarms.h"
 #include "dialects/sinumerik/words.h"
 #include "frontend/sinumerik/resolver.h"
 
@@ -83,6 +84,7 @@ bool Resolver::Name(ExprId id) {
     finding.notes.push_back(
         {{variable.file, variable.line, variable.begin, variable.begin + variable.length}, "it is declared only here"});
     finding.help = "a start value can use names that were declared before it";
+    finding.control = dialects::AlarmFor(profile_, finding.code);
     module_.exprs[id] = ir::Expr();
     return false;
   }

@@ -33,6 +33,35 @@ std::string_view TypeText(Type type) {
   return "another type";
 }
 
+/// The path of `;$PATH=/_N_WKS_DIR/_N_SHAFT_WPD`, in upper case; empty: the comment is none.
+std::string PathMark(std::string_view comment) {
+  std::string text;
+  for (const char c : comment) {
+    if (c != ' ' && c != '\t' && (c != ';' || !text.empty())) text += Upper(c);
+  }
+  constexpr std::string_view kMark = "$PATH=";
+  return text.starts_with(kMark) ? text.substr(kMark.size()) : std::string();
+}
+
+/// True if the last folder of the path whose kind a name tells is one of part programs, subprograms or work pieces:
+/// `/_N_WKS_DIR/_N_SHAFT_WPD`, `WKS.DIR/SHAFT.WPD` (card 7.2).
+bool IsPlainFolder(std::string_view path) {
+  while (!path.empty()) {
+    const std::size_t cut = path.find_last_of("/\\");
+    std::string_view folder = cut == std::string_view::npos ? path : path.substr(cut + 1);
+    path = cut == std::string_view::npos ? std::string_view{} : path.substr(0, cut);
+    if (folder.starts_with("_N_")) folder.remove_prefix(3);
+    const auto is_kind = [&](std::string_view kind) {
+      return folder.size() == kind.size() + 4 && folder.starts_with(kind) && folder.ends_with("DIR") &&
+             (folder[kind.size()] == '_' || folder[kind.size()] == '.');
+    };
+    if (folder.ends_with("_WPD") || folder.ends_with(".WPD")) return true;
+    if (is_kind("SPF") || is_kind("MPF") || is_kind("WKS")) return true;
+    if (is_kind("CUS") || is_kind("CMA") || is_kind("CST")) return false;
+  }
+  return false;
+}
+
 }  // namespace
 
 bool Resolver::Call(ir::Word& word) {
@@ -143,19 +172,19 @@ bool Resolver::Arguments(const ir::Call& call, const ir::Word& word) {
 }
 
 bool Resolver::InPlainFolder(ir::ProgramId program) const {
-  constexpr std::string_view kPath = "$PATH=/_N_";
   constexpr std::uint32_t kHeadBlocks = 3;  // the path stands directly below the header (card 1.1)
   std::uint32_t looked = 0;
   for (const ir::BlockId id : module_.programs[program].blocks) {
     if (++looked > kHeadBlocks) break;
     for (const ir::CommentId comment : module_.blocks[id].comments) {
-      const std::string text = UpperOf(module_.View(module_.comments[comment].text));
-      if (!text.starts_with(kPath)) continue;
-      const std::string_view folder = std::string_view(text).substr(kPath.size(), 3);
-      return folder == "SPF" || folder == "MPF" || folder == "WKS";
+      if (const std::string path = PathMark(module_.View(module_.comments[comment].text)); !path.empty())
+        return IsPlainFolder(path);
     }
   }
-  return false;
+  // Without the mark the folder of the file tells, as archives and computers keep them.
+  const std::string name = UpperOf(files_.Name(module_.programs[program].file));
+  const std::size_t end = name.find_last_of("/\\");
+  return end != std::string::npos && IsPlainFolder(std::string_view(name).substr(0, end));
 }
 
 void Resolver::WantExtern(const ir::Call& call, const ir::Word& word) {

@@ -66,7 +66,8 @@ class Resolver {
   bool Argument(ir::Arg& arg, ir::VariableId parameter);
   /// Card 7.2: Code::kMissingExtern, once for each program that is called.
   void WantExtern(const ir::Call& call, const ir::Word& word);
-  /// True if the folder that stands in front of the program (`;$PATH=`) is one of part programs or subprograms.
+  /// True if the folder of the program (`;$PATH=` in front of it, else that of its file) is one of part programs,
+  /// subprograms or work pieces.
   [[nodiscard]] bool InPlainFolder(ir::ProgramId program) const;
   /// True if the PROC of a program was not understood, so that what it takes is not known.
   [[nodiscard]] bool HeaderRefused(ir::ProgramId program) const;

@@ -6,14 +6,15 @@ namespace {
 
 using ir::WordOp;
 
-/// Words that do something. An end word or a mark that control never comes to is no mistake: programs are written with
-/// both.
+/// Words that do something. An end word, a stop or a mark that control never comes to is no mistake: programs are
+/// written with both, and a stop behind an alarm is the belt to its braces.
 bool DoesSomething(const ir::Module& module, const ir::Block& block) {
   const auto does = [&](ir::WordId id) {
     switch (const WordOp op = module.words[id].op; op) {
       case WordOp::kProgramEnd:
       case WordOp::kReturn:
       case WordOp::kRestart:
+      case WordOp::kStop:
       case WordOp::kFileMark:
       case WordOp::kHeader:
       case WordOp::kDefine:

@@ -16,6 +16,50 @@ namespace ncport::backends {
 
 namespace {
 
+/// What of the word only the run knows; empty: nothing.
+std::string_view OfTheRun(const ir::Module& module, const ir::Word& word) {
+  switch (word.op) {
+    case ir::WordOp::kAssign:
+      return "a variable";
+    case ir::WordOp::kJump:
+    case ir::WordOp::kSwitch:
+      return "a jump";
+    case ir::WordOp::kCall:
+    case ir::WordOp::kModalCall:
+      return "a call";
+    case ir::WordOp::kRepeatPart:
+      return "a repeated part";
+    default:
+      break;
+  }
+  if (ir::IsStructureMark(word.op)) return "a branch or loop";
+  if (!word.value.Valid()) return {};
+  ir::ExprId id = word.value;
+  while (module.exprs[id].op == ir::ExprOp::kGroup || module.exprs[id].op == ir::ExprOp::kConvert ||
+         module.exprs[id].op == ir::ExprOp::kNegate || module.exprs[id].op == ir::ExprOp::kPlus)
+    id = ir::ExprId{std::size_t{module.exprs[id].a}};
+  const ir::ExprOp op = module.exprs[id].op;
+  return op == ir::ExprOp::kCell || op == ir::ExprOp::kCellAt || op == ir::ExprOp::kVariable ||
+                 op == ir::ExprOp::kElement
+             ? "a variable"
+             : std::string_view{};
+}
+
+/// The first place that a program of literal words cannot say.
+void ReportFirstOfTheRun(const ir::Module& module, std::string_view target, diag::Sink& sink) {
+  for (const ir::Program& program : module.programs.All()) {
+    if (program.library) continue;
+    for (const ir::BlockId block : program.blocks) {
+      for (const ir::WordId id : module.blocks[block].words) {
+        const std::string_view what = OfTheRun(module, module.words[id]);
+        if (what.empty()) continue;
+        sink.Report(diag::Code::kLiteralOnly, module.RangeOf(module.blocks[block], module.words[id]), what, target);
+        return;
+      }
+    }
+  }
+}
+
 bool RaiseFor(const TranslateInput& input, Translation& translation, diag::Sink& sink) {
   switch (input.to->language) {
     case dialects::Language::kFanuc:
@@ -29,6 +73,7 @@ bool RaiseFor(const TranslateInput& input, Translation& translation, diag::Sink&
     default:
       break;
   }
+  ReportFirstOfTheRun(*input.source, input.to->name, sink);
   sink.Report(diag::Code::kNotExpressible, SourceRange{}, "a program with loops, calls and variables", input.to->name)
       .help = "ncport flatten writes programs of literal blocks";
   return false;

@@ -13,19 +13,6 @@ using ir::ProgramId;
 using ir::WordOp;
 using ir::analysis::EdgeKind;
 
-bool FeedMotion(ir::Motion motion) {
-  switch (motion) {
-    case ir::Motion::kLinear:
-    case ir::Motion::kArcCw:
-    case ir::Motion::kArcCcw:
-    case ir::Motion::kArcVia:
-    case ir::Motion::kArcTangent:
-      return true;
-    default:
-      return false;
-  }
-}
-
 /// `F0`: a feed of nothing is none (sinumerik-10#49, fanuc-11#8).
 bool IsZero(const ir::Module& module, const ir::Word& feed) { return LiteralValue(module, feed.value) == 0.0; }
 
@@ -208,7 +195,7 @@ void CheckFeed(const Subject& subject, diag::Sink& sink) {
       const ir::Word* moving = MovingWord(module, block);
       if (moving == nullptr || (feed != nullptr && !zero)) continue;
       const ir::ModalState modes = subject.modal.At(program, id);
-      if (!FeedMotion(modes.motion) || modes.feed_mode == ir::FeedMode::kInverseTime) continue;
+      if (!IsFeedMotion(modes.motion) || modes.feed_mode == ir::FeedMode::kInverseTime) continue;
       diag::Diagnostic& finding = sink.Report(diag::Code::kMissingFeed, subject.PlaceOf(id, *moving));
       finding.help = zero ? "F0 is no feed" : "no block on the way here sets a feed: write F in this block";
       finding.control = dialects::AlarmFor(subject.profile, finding.code);

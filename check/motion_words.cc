@@ -4,6 +4,19 @@ namespace ncport::check {
 
 using ir::WordOp;
 
+bool IsFeedMotion(ir::Motion motion) {
+  switch (motion) {
+    case ir::Motion::kLinear:
+    case ir::Motion::kArcCw:
+    case ir::Motion::kArcCcw:
+    case ir::Motion::kArcVia:
+    case ir::Motion::kArcTangent:
+      return true;
+    default:
+      return false;
+  }
+}
+
 const ir::Word* MovingWord(const ir::Module& module, const ir::Block& block) {
   const ir::Word* moving = nullptr;
   for (const ir::WordId id : block.words) {

@@ -9,4 +9,7 @@ namespace ncport::check {
 /// the block name something else (a frame, a pole, a reference point, a dwell).
 const ir::Word* MovingWord(const ir::Module& module, const ir::Block& block);
 
+/// Modes that cut with the feed; threads and tapping go with the spindle.
+bool IsFeedMotion(ir::Motion motion);
+
 }  // namespace ncport::check

@@ -15,12 +15,15 @@ void CheckPrograms(const Subject& subject, diag::Sink& sink) {
     CheckArcWords(subject, program, sink);
     CheckLoopCounters(subject, program, sink);
     CheckExactComparisons(subject, program, sink);
+    CheckUnsetValues(subject, program, sink);
   }
   CheckUnusedNames(subject, sink);
   CheckSharedNames(subject, sink);
   CheckExterns(subject, sink);
   CheckRecursion(subject, sink);
   CheckFeed(subject, sink);
+  CheckEmptyValues(subject, sink);
+  CheckSpindle(subject, sink);
 }
 
 }  // namespace ncport::check

@@ -36,6 +36,9 @@ void CheckLoopCounters(const Subject& subject, ir::ProgramId program, diag::Sink
 /// NC3010: EQ or NE with a fraction that binary numbers do not hold, where the control compares exactly.
 void CheckExactComparisons(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
 
+/// NC3005: a variable without start value that is read where no way has set it: it is 0 there.
+void CheckUnsetValues(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
+
 // Of the whole set.
 
 /// NC2007: variables and parameters that no block uses.
@@ -49,5 +52,9 @@ void CheckExterns(const Subject& subject, diag::Sink& sink);
 void CheckRecursion(const Subject& subject, diag::Sink& sink);
 /// NC5002: a feed move on no way to which a feed was set, or with a feed of 0.
 void CheckFeed(const Subject& subject, diag::Sink& sink);
+/// NC3004: a numbered variable that is empty on every way here, in arithmetic, a comparison or a word (fanuc-11#45).
+void CheckEmptyValues(const Subject& subject, diag::Sink& sink);
+/// NC5003: a feed move on no way to which a spindle was started, in a set that starts one.
+void CheckSpindle(const Subject& subject, diag::Sink& sink);
 
 }  // namespace ncport::check

@@ -41,10 +41,10 @@ std::string Macro(std::string_view text) { return Findings("fanuc-mill", "o1.nc"
 TEST_CASE("jumps that find nothing") {
   CHECK(Mill("GOTOF AB\nM30\n") == "NC4001 1");
   CHECK(Mill("AB: G0 X1\nIF R1>1 GOTOF AB\nM30\n") == "NC4001 2");
-  CHECK(Macro("O1\nIF [#1 GT 1] GOTO 20\nN10 M30\n") == "NC4001 2");
+  CHECK(Macro("O1\nIF [#101 GT 1] GOTO 20\nN10 M30\n") == "NC4001 2");
   CHECK(Mill("GOTOC AB\nM30\n").empty());
   CHECK(Mill("AB: G0 X1\nIF R1>1 GOTOB AB\nM30\n").empty());
-  CHECK(Macro("O1\nN10 IF [#1 GT 1] GOTO 10\nM30\n").empty());
+  CHECK(Macro("O1\nN10 IF [#101 GT 1] GOTO 10\nM30\n").empty());
 }
 
 TEST_CASE("names that are too long") {
@@ -63,7 +63,7 @@ TEST_CASE("names that are too long") {
 TEST_CASE("jumps to labels that stand twice") {
   CHECK(Mill("IF R1>1 GOTOF AB\nAB: G0 X1\nAB: G0 X2\nM30\n") == "NC2003 1");
   CHECK(Mill("N10 G0 X1\nN10 G0 X2\nIF R1>1 GOTOB N10\nM30\n") == "NC2003 3");
-  CHECK(Macro("O1\nIF [#1 EQ 1] GOTO 10\nN10 G0 X1.\nN10 G0 X2.\nM30\n") == "NC2003 2");
+  CHECK(Macro("O1\nIF [#101 EQ 1] GOTO 10\nN10 G0 X1.\nN10 G0 X2.\nM30\n") == "NC2003 2");
   // One before and one behind: each jump has its own.
   CHECK(Mill("AB: G0 X1\nIF R1>1 GOTOB AB\nIF R1<1 GOTOF AB\nAB: G0 X2\nM30\n").empty());
   CHECK(Mill("N10 G0 X1\nN10 G0 X2\nM30\n").empty());
@@ -81,9 +81,9 @@ TEST_CASE("labels that nothing names") {
 
 TEST_CASE("variables and parameters that nothing uses") {
   CHECK(Mill("DEF INT AB\nM30\n") == "NC2007 1");
-  CHECK(Mill("DEF INT AB, CD\nAB=CD\nM30\n") == "NC2007 1");
+  CHECK(Mill("DEF INT AB, CD=1\nAB=CD\nM30\n") == "NC2007 1");
   CHECK(Sub("PROC SUB1(REAL LENGTH, REAL FEED)\nG1 X=LENGTH F100\nM17\n") == "NC2007 1");
-  CHECK(Mill("DEF INT AB\nG0 X=AB\nM30\n").empty());
+  CHECK(Mill("DEF INT AB=1\nG0 X=AB\nM30\n").empty());
   CHECK(Sub("PROC SUB1(VAR REAL RESULT)\nRESULT=1\nM17\n").empty());
   CHECK(Sub("PROC SUB1(INT COUNT)\nDEF REAL AB[3]\nG0 X=AB[COUNT]\nM17\n").empty());
 }
@@ -210,23 +210,23 @@ TEST_CASE("counters that are read behind their loop") {
 }
 
 TEST_CASE("comparisons with a fraction where the control compares exactly") {
-  CHECK(Macro("O1\nIF[#1EQ0.1]GOTO10\nN10 M30\n") == "NC3010 2");
+  CHECK(Macro("O1\nIF[#101EQ0.1]GOTO10\nN10 M30\n") == "NC3010 2");
   CHECK(Macro("O1\nWHILE[#1NE-0.3]DO1\n#1=#1-0.1\nEND1\nM30\n") == "NC3010 2");
-  CHECK(Macro("O1\nIF[[#1+#2]EQ0.7]THEN #3=1\nM30\n") == "NC3010 2");
-  CHECK(Macro("O1\nIF[#1EQ0.5]GOTO10\nN10 M30\n").empty());
-  CHECK(Macro("O1\nIF[#1GE0.1]GOTO10\nN10 M30\n").empty());
-  CHECK(Macro("O1\nIF[#1EQ3]GOTO10\nN10 M30\n").empty());
+  CHECK(Macro("O1\nIF[[#101+#102]EQ0.7]THEN #3=1\nM30\n") == "NC3010 2");
+  CHECK(Macro("O1\nIF[#101EQ0.5]GOTO10\nN10 M30\n").empty());
+  CHECK(Macro("O1\nIF[#101GE0.1]GOTO10\nN10 M30\n").empty());
+  CHECK(Macro("O1\nIF[#101EQ3]GOTO10\nN10 M30\n").empty());
   // Here equality has a tolerance.
   CHECK(Mill("IF R1==0.1 GOTOF AB\nAB: M30\n").empty());
 }
 
 TEST_CASE("one name for a variable and something else") {
-  CHECK(Mill("DEF REAL AB\nAB: G0 X=AB\nIF R1>1 GOTOB AB\nM30\n") == "NC2014 1");
-  CHECK(Mill("DEF REAL SUB1\nG0 X=SUB1\nM30\n%_N_SUB1_SPF\nG0 X1\nM17\n") == "NC2014 1");
+  CHECK(Mill("DEF REAL AB=1\nAB: G0 X=AB\nIF R1>1 GOTOB AB\nM30\n") == "NC2014 1");
+  CHECK(Mill("DEF REAL SUB1=1\nG0 X=SUB1\nM30\n%_N_SUB1_SPF\nG0 X1\nM17\n") == "NC2014 1");
   CHECK(Sub("PROC SUB1(REAL ab)\nAB: G0 X=ab\nIF R1>1 GOTOB AB\nM17\n") == "NC2014 1");
-  CHECK(Mill("DEF REAL AB\nCD: G0 X=AB\nIF R1>1 GOTOB CD\nM30\n").empty());
+  CHECK(Mill("DEF REAL AB=1\nCD: G0 X=AB\nIF R1>1 GOTOB CD\nM30\n").empty());
   // The label of another program.
-  CHECK(Mill("DEF REAL AB\nG0 X=AB\nSUB1\nM30\n%_N_SUB1_SPF\nAB: G0 X1\nIF R1>1 GOTOB AB\nM17\n").empty());
+  CHECK(Mill("DEF REAL AB=1\nG0 X=AB\nSUB1\nM30\n%_N_SUB1_SPF\nAB: G0 X1\nIF R1>1 GOTOB AB\nM17\n").empty());
 }
 
 TEST_CASE("calls with arguments of programs that only EXTERN makes known") {

@@ -81,15 +81,15 @@ class Hints {
     };
     constexpr Sign kSigns[] = {{"==", "EQ"}, {"<>", "NE"}, {"!=", "NE"}, {">=", "GE"},
                                {"<=", "LE"}, {"=", "EQ"},  {">", "GT"},  {"<", "LT"}};
-    if (!InBrackets()) {
-      return At(error_.begin) == '=' && Before() == '=' && Say("a value is set with one =");
-    }
     // `<` also opens the name of a variable: the error is then where that name has no end.
     if (error_.code == Code::kExpectedText && error_.detail != nullptr && std::string_view(error_.detail) == ">") {
       for (std::size_t at = 1; at < error_.begin; ++at) {
         if (line_[at] != '<' || line_[at - 1] == '#') continue;
         error_ = {.code = Code::kUnknownCharacter, .begin = static_cast<std::uint32_t>(at), .length = 1};
       }
+    }
+    if (!InBrackets()) {
+      return At(error_.begin) == '=' && Before() == '=' && Say("a value is set with one =");
     }
     for (const Sign& sign : kSigns) {
       if (Rest().starts_with(sign.text)) return Say("two values are compared with words: {}", sign.word);

@@ -543,11 +543,33 @@ class Hints {
   std::string& help_;
 };
 
+/// `G0TOF`, `G0T0B`: a jump word with zeros for its letters O falls apart into G0 and what follows. Moves the error to
+/// the word and names the jump.
+bool JumpWithZeros(std::string_view line, LineError& error, std::string& help) {
+  const auto in_word = [&](std::size_t i) { return i < line.size() && (IsLetter(line[i]) || IsDigit(line[i])); };
+  std::size_t begin = std::min<std::size_t>(error.begin, line.size());
+  while (begin > 0 && in_word(begin - 1)) --begin;
+  std::size_t end = begin;
+  while (in_word(end)) ++end;
+  std::string word(line.substr(begin, end - begin));
+  if (word.find('0') == std::string::npos) return false;
+  for (char& letter : word) letter = letter == '0' ? 'O' : Upper(letter);
+  constexpr std::string_view kJumps[] = {"GOTO", "GOTOF", "GOTOB", "GOTOC", "GOTOS"};
+  if (std::ranges::find(kJumps, word) == std::end(kJumps)) return false;
+  help = fmt::format("did you mean {}?", word);
+  error = {.code = Code::kUnknownWord,
+           .begin = static_cast<std::uint32_t>(begin),
+           .length = static_cast<std::uint32_t>(end - begin)};
+  error.help = help.c_str();
+  return true;
+}
+
 }  // namespace
 
 void ExplainSyntax(std::span<const Token> tokens, std::size_t at, std::string_view line, LineError& error,
                    std::string& help) {
   help.clear();
+  if (JumpWithZeros(line, error, help)) return;
   Hints(tokens, at, line, error, help).Run();
 }
 
@@ -579,6 +601,7 @@ void ExplainWord(std::string_view line, LineError& error, std::string& help) {
     }
   }
   if (error.begin >= line.size() || error.help != nullptr) return;
+  if (JumpWithZeros(line, error, help)) return;
   const char c = Upper(line[error.begin]);
   const std::string_view behind = line.substr(error.begin + 1);
   const auto digit_at = [&](std::size_t i) { return i < line.size() && IsDigit(line[i]); };

@@ -36,6 +36,8 @@ void CheckLoopCounters(const Subject& subject, ir::ProgramId program, diag::Sink
 /// NC3010: EQ or NE with a fraction that binary numbers do not hold, where the control compares exactly.
 void CheckExactComparisons(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
 
+/// NC3006: literals with more digits than controls of eight digits keep (fanuc-3.4).
+void CheckLostDigits(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
 /// NC3005: a variable without start value that is read where no way has set it: it is 0 there.
 void CheckUnsetValues(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
 

@@ -91,7 +91,7 @@ TEST_CASE("vacant values: copies keep them, arithmetic takes zero where the lang
     return Result([&](RunFixture& f) { return f.e.Binary(ExprOp::kAdd, f.e.Vacant(), f.N("2"), flags); });
   };
   CHECK(vacant(ir::Expr::kVacantAsZero) == "2");
-  CHECK(vacant(0) == "operand is empty here");
+  CHECK(vacant(0) == "this cannot be run: an empty value in arithmetic");
   CHECK(Result([](RunFixture& f) { return f.e.Vacant(); }) == "vacant");
   const auto equal = [](ExprOp op, bool left_vacant, std::uint8_t flags) {
     return Result(

@@ -567,8 +567,11 @@ bool Lowering::AddLetter(const Pending& pending, const Context& context, const w
       if (context.dwell) {
         Word& word = AddWord(WordOp::kDwellSeconds, pending);
         word.spelling = SpellingOf("P", "fanuc-8.1");
-        if (!SetValue(word, pending, false)) return false;
-        word.flags |= Word::kIncrements;
+        // Haas: seconds with a point, milliseconds without (fanuc-13).
+        const bool seconds = profile_.fanuc.variant.Is(dialects::FanucSettings::Variant::kHaas) && IsLiteral(pending) &&
+                             HasPoint(pending);
+        if (!SetValue(word, pending, seconds)) return false;
+        if (!seconds) word.flags |= Word::kIncrements;
         return true;
       }
       if (context.scaling) {

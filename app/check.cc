@@ -133,6 +133,7 @@ void CheckFlow(Context& context, const app::ProgramSet& set, const CheckOptions&
                const check::Subject& subject) {
   for (const ir::ProgramId program : set.module.programs.Ids()) {
     if (set.module.programs[program].library) continue;
+    check::CheckBlockLengths(subject, program, context.files, context.findings);
     check::CheckUnreachable(set.module, program, subject.graphs, context.findings);
     check::CheckComparisons(set.module, program, context.findings);
     check::CheckExactLoopEnds(set.module, program, subject.graphs, context.findings);

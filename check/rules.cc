@@ -15,6 +15,7 @@ void CheckPrograms(const Subject& subject, diag::Sink& sink) {
     CheckArcWords(subject, program, sink);
     CheckLoopCounters(subject, program, sink);
     CheckExactComparisons(subject, program, sink);
+    CheckNesting(subject, program, sink);
     CheckLostDigits(subject, program, sink);
     CheckUnsetValues(subject, program, sink);
   }
@@ -25,6 +26,7 @@ void CheckPrograms(const Subject& subject, diag::Sink& sink) {
   CheckFeed(subject, sink);
   CheckEmptyValues(subject, sink);
   CheckSpindle(subject, sink);
+  CheckCallDepth(subject, sink);
 }
 
 }  // namespace ncport::check

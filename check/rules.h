@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/diag/sink.h"
+#include "base/source_files.h"
 #include "check/subject.h"
 
 namespace ncport::check {
@@ -36,6 +37,11 @@ void CheckLoopCounters(const Subject& subject, ir::ProgramId program, diag::Sink
 /// NC3010: EQ or NE with a fraction that binary numbers do not hold, where the control compares exactly.
 void CheckExactComparisons(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
 
+/// NC9003: brackets, loops and branches nested deeper than the control takes (profile: nesting).
+void CheckNesting(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
+/// NC9006: blocks with more characters than the control reads (profile: block.max-length). Needs the texts, so the
+/// command calls it.
+void CheckBlockLengths(const Subject& subject, ir::ProgramId program, const SourceFiles& files, diag::Sink& sink);
 /// NC3006: literals with more digits than controls of eight digits keep (fanuc-3.4).
 void CheckLostDigits(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
 /// NC3005: a variable without start value that is read where no way has set it: it is 0 there.
@@ -56,6 +62,8 @@ void CheckRecursion(const Subject& subject, diag::Sink& sink);
 void CheckFeed(const Subject& subject, diag::Sink& sink);
 /// NC3004: a numbered variable that is empty on every way here, in arithmetic, a comparison or a word (fanuc-11#45).
 void CheckEmptyValues(const Subject& subject, diag::Sink& sink);
+/// NC9003: calls from a main program that are nested deeper than the control takes (profile: nesting.call).
+void CheckCallDepth(const Subject& subject, diag::Sink& sink);
 /// NC5003: a feed move on no way to which a spindle was started, in a set that starts one.
 void CheckSpindle(const Subject& subject, diag::Sink& sink);
 

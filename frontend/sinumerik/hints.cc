@@ -264,6 +264,10 @@ class Hints {
       Put(Code::kUnexpectedText, at_ - 1);
       return Say("an operator is missing between ) and {}", TextOf(at_ - 1));
     }
+    if (InCall() && Kind() == K::kCode && (Before() == K::kLeftParen || Before() == K::kComma)) {
+      Put(Code::kUnexpectedText, at_);
+      return Say("{} is a word of the language; a text stands in quotes: \"{}\"", TextOf(at_), TextOf(at_));
+    }
     if (InCall() && IsValue(Before()) && StartsValue(Kind()) && error_.code == Code::kExpectedText)
       return Say("a comma is missing between {} and {}", TextOf(at_ - 1), TextOf(at_));
     const bool number = Before() == K::kNumber || Before() == K::kAxisValue || Before() == K::kAddressValue;

@@ -16,15 +16,12 @@ using ir::ExprId;
 using ir::ExprOp;
 using ir::WordOp;
 
-namespace {
-
 namespace words = dialects::sinumerik;
 
-/// The number that stands in the text, also with a sign or in brackets; nothing for what is computed.
-std::optional<double> Literal(const ir::Module& module, ExprId id) {
+std::optional<double> Resolver::LiteralNumber(ExprId id) const {
   double sign = 1;
   while (id.Valid()) {
-    const ir::Expr& expr = module.exprs[id];
+    const ir::Expr& expr = module_.exprs[id];
     switch (expr.op) {
       case ExprOp::kLiteral:
         return sign * expr.number;
@@ -42,8 +39,6 @@ std::optional<double> Literal(const ir::Module& module, ExprId id) {
   }
   return std::nullopt;
 }
-
-}  // namespace
 
 bool Resolver::BlockRules(const ir::Block& block) {
   bool ok = OwnBlock(block) && PolarBesideAxis(block) && Lead(block);
@@ -73,7 +68,7 @@ std::string_view Resolver::Slice(const SourceRange& at) const {
 }
 
 bool Resolver::Limit(const ir::Word& word, double low, double high, std::string_view range) {
-  const std::optional<double> value = Literal(module_, word.value);
+  const std::optional<double> value = LiteralNumber(word.value);
   if (!value || (*value >= low && *value <= high)) return true;
   sink_.Report(Code::kOutOfRange, module_.RangeOf(module_.blocks[block_], word.value), *value, range);
   return false;

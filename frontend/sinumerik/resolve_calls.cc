@@ -1,8 +1,11 @@
 // Calls: the program, and what its parameters make of the arguments (card 3.7, 7.1).
 #include <algorithm>
+#include <optional>
+#include <span>
 #include <string>
 
 #include "base/near_name.h"
+#include "dialects/sinumerik/cycle_parameters.h"
 #include "dialects/sinumerik/library.h"
 #include "dialects/sinumerik/words.h"
 #include "frontend/common/chars.h"
@@ -14,6 +17,9 @@
 namespace ncport::frontend::sinumerik {
 
 using diag::Code;
+using dialects::sinumerik::FindCycleParameters;
+using dialects::sinumerik::IsTextParameter;
+using dialects::sinumerik::ParameterAt;
 using ir::ExprId;
 using ir::ExprOp;
 using ir::Type;
@@ -138,11 +144,18 @@ void Resolver::TellParameter(diag::Diagnostic& finding) const {
 
 bool Resolver::Arguments(const ir::Call& call, const ir::Word& word) {
   if (!call.program.Valid() || HeaderRefused(call.program)) {
-    for (const ir::ArgId arg : call.args) {
+    const auto* cycle =
+        call.program.Valid() || !call.name.Valid() ? nullptr : FindCycleParameters(module_.View(call.name));
+    for (const ir::ArgId id : call.args) {
+      const ir::Arg arg = module_.args[id];
+      if (!arg.value.Valid()) continue;
+      text_likely_ = cycle != nullptr && IsTextParameter(*cycle, ParameterAt(*cycle, arg.position));
       // A whole array may be an argument.
-      if (module_.args[arg].value.Valid() && !Expr(module_.args[arg].value)) return false;
+      const bool ok = Expr(arg.value);
+      text_likely_ = false;
+      if (!ok) return false;
     }
-    return true;
+    return cycle == nullptr || (CycleTypes(call, word, *cycle) && CycleRanges(call, *cycle));
   }
   const ir::Program& program = module_.programs[call.program];
   const SourceRange at = module_.RangeOf(module_.blocks[block_], word);
@@ -168,7 +181,50 @@ bool Resolver::Arguments(const ir::Call& call, const ir::Word& word) {
     }
   }
   if (!program.library) WantExtern(call, word);
-  return !program.library || CycleLimits(call);
+  if (!program.library) return true;
+  const auto* cycle = FindCycleParameters(module_.View(program.name));
+  return CycleLimits(call) && (cycle == nullptr || CycleRanges(call, *cycle));
+}
+
+// Card 8.12: cycles that ncport does not run, but whose parameters are known.
+bool Resolver::CycleTypes(const ir::Call& call, const ir::Word& word, const CycleParameters& cycle) {
+  for (const ir::ArgId id : call.args) {
+    const ir::Arg& arg = module_.args[id];
+    const std::string_view parameter = ParameterAt(cycle, arg.position);
+    if (!arg.value.Valid() || parameter.empty()) continue;
+    const Type type = module_.exprs[arg.value].type;
+    const bool text = type == Type::kString || type == Type::kChar;
+    if (type == Type::kAny || type == Type::kNone || text == IsTextParameter(cycle, parameter)) continue;
+    const std::string help = std::string(parameter) + " of " + std::string(cycle.cycle);
+    return Mismatch(arg.value, text ? "a text" : "a number", text ? "a number" : "a text", help);
+  }
+  const std::uint32_t most = CountOf(cycle);
+  if (!cycle.complete || call.args.count <= most) return true;
+  sink_
+      .ReportAs(diag::Severity::kWarning, Code::kArgumentCount, module_.RangeOf(module_.blocks[block_], word),
+                cycle.cycle, most, call.args.count)
+      .help = "the last one is " + std::string(ParameterAt(cycle, most - 1)) + ": is a value or a comma too many?";
+  return true;
+}
+
+bool Resolver::CycleRanges(const ir::Call& call, const CycleParameters& cycle) {
+  for (const auto& row : dialects::sinumerik::CycleValueRows()) {
+    if (row.cycle != cycle.cycle) continue;
+    for (const ir::ArgId id : call.args) {
+      const ir::Arg& arg = module_.args[id];
+      if (!arg.value.Valid() || ParameterAt(cycle, arg.position) != row.parameter) continue;
+      const std::optional<double> value = LiteralNumber(arg.value);
+      const std::span ranges(row.ranges, row.range_count);
+      if (!value ||
+          std::ranges::any_of(ranges, [&](const auto& range) { return *value >= range.low && *value <= range.high; }))
+        continue;
+      diag::Diagnostic& finding = sink_.ReportAs(diag::Severity::kWarning, Code::kOutOfRange,
+                                                 module_.RangeOf(module_.blocks[block_], arg.value), *value, row.text);
+      finding.notes.push_back({{}, "this is " + std::string(row.parameter) + " of " + std::string(row.cycle)});
+      finding.help = row.help;
+    }
+  }
+  return true;
 }
 
 bool Resolver::InPlainFolder(ir::ProgramId program) const {
@@ -203,7 +259,9 @@ void Resolver::UnknownProgram(std::string_view name, const SourceRange& at) {
     SourceRange word = at;
     word.end = word.begin + static_cast<std::uint32_t>(name.size());
     sink_.Report(Code::kNotSupported, word, name).help =
-        "a cycle of the control that ncport does not know; what it does is not looked at";
+        FindCycleParameters(name) != nullptr
+            ? "a cycle of the control that ncport does not run; only its arguments are looked at"
+            : "a cycle of the control that ncport does not know; what it does is not looked at";
     return;
   }
   diag::Diagnostic& finding = sink_.Report(Code::kUnknownProgram, at, name);

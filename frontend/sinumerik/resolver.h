@@ -12,6 +12,7 @@
 #include "base/diag/sink.h"
 #include "base/source_files.h"
 #include "dialects/profile.h"
+#include "dialects/sinumerik/cycle_parameters.h"
 #include "frontend/sinumerik/resolve.h"
 #include "ir/module.h"
 
@@ -73,7 +74,14 @@ class Resolver {
   [[nodiscard]] bool HeaderRefused(ir::ProgramId program) const;
   /// Says for which parameter the value is, where there is one.
   void TellParameter(diag::Diagnostic& finding) const;
+  using CycleParameters = dialects::sinumerik::CycleParameters;
   bool CycleLimits(const ir::Call& call);
+  /// Number and types of the arguments of a cycle that ncport does not run.
+  bool CycleTypes(const ir::Call& call, const ir::Word& word, const CycleParameters& cycle);
+  /// Literal values that the cycle does not take.
+  bool CycleRanges(const ir::Call& call, const CycleParameters& cycle);
+  /// The number that stands in the text, also with a sign or in brackets; nothing for what is computed.
+  [[nodiscard]] std::optional<double> LiteralNumber(ir::ExprId id) const;
 
   // Expressions (resolve_types.cc): names replaced, types set. False after a finding.
   bool Expr(ir::ExprId id);

@@ -116,6 +116,36 @@ TEST_CASE("standard cycles come from the library, with the arguments they cover"
   CHECK(result.module.View(result.module.file_names[result.module.programs[cycle].file.value]) == "<cycle81>");
 }
 
+TEST_CASE("arguments of cycles that are not run: number, types and values of the card") {
+  const auto findings = [](std::string_view call) {
+    ReadResult result;
+    ReadInto(result, std::string(call) + "\n");
+    std::string found = result.Findings();
+    // That the cycle is not translated.
+    for (std::size_t at = found.find("NC1019"); at != std::string::npos; at = found.find("NC1019"))
+      found.erase(at, found.find('\n', at) + 1 - at);
+    return found;
+  };
+  CHECK(findings("CYCLE97(1.5,,0,-28,24,24,4,3,0.92,0.05,30,0,0,5,1,3,1,1)") ==
+        "NC2011 1:1 CYCLE97 takes 17 arguments, 18 are given\n");
+  CHECK(findings("CYCLE97(1.5,,0,-28,24,24,4,3,0.92,0.05,30,0,5,1,3,1,1)").empty());
+  // Newer versions append to this one.
+  CHECK(findings("POCKET3(10,0,2,-5,40,20,5,0,0,0,2,0,0,300,100,0,1,10,0,0,0,0,0,0,1,2,0,0,1)").empty());
+  CHECK(findings("CYCLE93(40,-20,6,4,0,0,0,1,1,0,0,0.1,0.1,2,0.5,9)") ==
+        "NC2005 1:48 9 is outside 1 to 8 or 11 to 18\n");
+  CHECK(findings("CYCLE93(40,-20,6,4,0,0,0,1,1,0,0,0.1,0.1,2,0.5,15)").empty());
+  CHECK(findings("CYCLE93(40,-20,6,4,0,0,0,1,1,0,0,0.1,0.1,2,0.5,R1)").empty());
+  CHECK(findings("CYCLE95(7,2,0,0,,0.3,0.2,0.1,9)") == "NC2004 1:9 a number where a text is needed\n");
+  CHECK(findings("CYCLE95(\"A:E\",\"2\",0,0,,0.3,0.2,0.1,9)") == "NC2004 1:15 a text where a number is needed\n");
+  CHECK(findings("CYCLE95(\"A:E\",2,0,0,,0.3,0.2,0.1,9)").empty());
+  CHECK(findings("CYCLE84(10,0,2,-15,,0,5,1.25,,0,300,400)") == "NC2005 1:25 1.25 is outside 3 to 48\n");
+  CHECK(findings("CYCLE84(10,0,2,-15,,0,5,-8,,0,300,400)").empty());
+  CHECK(findings("CYCLE84(10,0,2,-15,,0,5,,1.25,0,300,400)").empty());
+  CHECK(findings("CYCLE84(10,0,2,-15,,0,7,,1.25,0,300,400)") == "NC2005 1:23 7 is outside 3 to 5\n");
+  // A program of the user of that name is another thing.
+  CHECK(findings("CYCLE93(9)\nM30\n%_N_CYCLE93_SPF\nPROC CYCLE93(REAL AA)\nM17").empty());
+}
+
 TEST_CASE("axis names that the machine lists, axes as arguments") {
   ReadResult result;
   ReadInto(result,

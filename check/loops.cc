@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -86,17 +87,21 @@ class Loops final : public ValueRule {
         const bool fixed =
             seen && truth->second.low == 1 && (IsConstant(block) || StepsAway(id, block.link, block, true));
         const bool frozen = !fixed && Frozen(program, id, block.link, id);
-        if ((fixed || frozen) && !LeavesElsewhere(graph, id, block.link)) Endless(at, id, frozen, sink);
+        const std::string missed = fixed || frozen ? "" : Missed(program, id, block.link, id, ExprOp::kNotEqual);
+        if ((fixed || frozen || !missed.empty()) && !LeavesElsewhere(graph, id, block.link))
+          Endless(at, id, frozen, sink, missed);
         return;
       }
       case WordOp::kLoop:
-        if (!LeavesElsewhere(graph, id, block.link)) Endless(at, id, false, sink);
+        if (!LeavesElsewhere(graph, id, block.link)) Endless(at, id, false, sink, {});
         return;
       case WordOp::kUntil: {
         const bool fixed =
             seen && truth->second.high == 0 && (IsConstant(block) || StepsAway(block.link, id, block, false));
         const bool frozen = !fixed && Frozen(program, block.link, id, id);
-        if ((fixed || frozen) && !LeavesElsewhere(graph, block.link, id)) Endless(at, id, frozen, sink);
+        const std::string missed = fixed || frozen ? "" : Missed(program, block.link, id, id, ExprOp::kEqual);
+        if ((fixed || frozen || !missed.empty()) && !LeavesElsewhere(graph, block.link, id))
+          Endless(at, id, frozen, sink, missed);
         return;
       }
       default:
@@ -156,8 +161,12 @@ class Loops final : public ValueRule {
     return !step ? 0 : sum.op == ExprOp::kAdd ? *step : -*step;
   }
 
-  void Endless(const SourceRange& at, BlockId id, bool frozen, diag::Sink& sink) {
+  void Endless(const SourceRange& at, BlockId id, bool frozen, diag::Sink& sink, const std::string& missed) {
     diag::Diagnostic& finding = sink.Report(diag::Code::kEndlessLoop, at);
+    if (!missed.empty()) {
+      finding.notes.push_back({{}, missed});
+      finding.help = "compare with <= or >= (in WHILE > or <), so that it ends behind that value too";
+    }
     if (!frozen) return;
     const ir::Word& word = input_.module.words[input_.module.blocks[id].words[0]];
     std::set<std::string> names;
@@ -226,6 +235,173 @@ class Loops final : public ValueRule {
       }
     }
     return true;
+  }
+
+  /// The literal, also with a sign or in brackets.
+  [[nodiscard]] std::optional<double> Literal(ExprId id) const {
+    const Expr& expr = input_.module.exprs[id];
+    switch (expr.op) {
+      case ExprOp::kLiteral:
+        return expr.number;
+      case ExprOp::kNegate: {
+        const std::optional<double> value = Literal(ExprId{std::size_t{expr.a}});
+        return value ? std::optional(-*value) : std::nullopt;
+      }
+      case ExprOp::kPlus:
+      case ExprOp::kGroup:
+      case ExprOp::kConvert:
+        return Literal(ExprId{std::size_t{expr.a}});
+      default:
+        return std::nullopt;
+    }
+  }
+
+  [[nodiscard]] bool SamePlace(const Expr& a, const Expr& b) const {
+    if (a.op != b.op || a.a != b.a) return false;
+    return a.op == ExprOp::kVariable || (a.op == ExprOp::kCell && a.b == b.b);
+  }
+
+  /// No block of these changes the value of the place.
+  [[nodiscard]] bool Unchanged(ir::ProgramId program, ExprId place, BlockId first, BlockId last) const {
+    std::set<std::pair<std::uint32_t, std::uint64_t>> read;
+    bool shared = false;
+    if (!Reads(program, place, read, shared)) return false;
+    for (std::uint32_t i = first.value; i <= last.value; ++i) {
+      for (const ir::WordId id : input_.module.blocks[BlockId{std::size_t{i}}].words) {
+        if (Changes(input_.module.words[id], read, shared)) return false;
+      }
+    }
+    return true;
+  }
+
+  /// `place = place + step`, also with minus, in the loop of these blocks.
+  [[nodiscard]] std::optional<double> StepOf(const ir::Word& word, const Expr& place, ir::ProgramId program,
+                                             BlockId first_block, BlockId last_block) const {
+    const Expr& sum = input_.module.exprs[Bare(word.value)];
+    if (sum.op != ExprOp::kAdd && sum.op != ExprOp::kSubtract) return std::nullopt;
+    const ExprId left{std::size_t{sum.a}};
+    const ExprId right{std::size_t{sum.b}};
+    const bool first = SamePlace(input_.module.exprs[Bare(left)], place);
+    if (!first && (sum.op == ExprOp::kSubtract || !SamePlace(input_.module.exprs[Bare(right)], place)))
+      return std::nullopt;
+    const ExprId operand = Bare(first ? right : left);
+    std::optional<double> step = Literal(first ? right : left);
+    const Expr& bare = input_.module.exprs[operand];
+    if (!step && (bare.op == ExprOp::kVariable || bare.op == ExprOp::kCell) &&
+        Unchanged(program, operand, first_block, last_block))
+      step = SetBefore(bare, first_block);
+    return step && sum.op == ExprOp::kSubtract ? std::optional(-*step) : step;
+  }
+
+  /// The literal that the blocks right before `block` give the place; nothing where a way may come in between.
+  [[nodiscard]] std::optional<double> SetBefore(const Expr& place, BlockId block) const {
+    constexpr std::uint32_t kMostBlocks = 100;
+    for (std::uint32_t i = block.value, looked = 0; i > 0 && looked < kMostBlocks; --i, ++looked) {
+      const ir::Block& before = input_.module.blocks[BlockId{std::size_t{i - 1}}];
+      if ((before.flags & ir::Block::kRefused) != 0 || before.skip_level != ir::Block::kNoSkip) return std::nullopt;
+      for (std::uint32_t w = before.words.count; w > 0; --w) {
+        const ir::Word& word = input_.module.words[before.words[w - 1]];
+        if (word.op == WordOp::kAssign && SamePlace(input_.module.exprs[word.Extra<ExprId>()], place))
+          return Literal(word.value);
+        if (word.op == WordOp::kDefine && place.op == ExprOp::kVariable && word.extra == place.a) {
+          const ExprId initial = input_.module.variables[ir::VariableId{std::size_t{place.a}}].initial;
+          return initial.Valid() ? Literal(initial) : std::nullopt;
+        }
+        if (word.phase == ir::Phase::kFlow || word.phase == ir::Phase::kLast || word.op == WordOp::kWhen ||
+            word.op == WordOp::kSkipRest || word.op == WordOp::kAssignList || word.op == WordOp::kVerbatim)
+          return std::nullopt;
+        // Behind a move a modal call may run, which writes what all see.
+        if (has_modal_ && word.phase == ir::Phase::kMotion) return std::nullopt;
+      }
+      // A jump may come to here.
+      if (before.label.Valid() || before.number != ir::Block::kNoNumber) {
+        if (!StraightTo(BlockId{std::size_t{i - 1}})) return std::nullopt;
+      }
+    }
+    return std::nullopt;
+  }
+
+  /// No jump, call or computed target comes to the block: only the one before it does.
+  [[nodiscard]] bool StraightTo(BlockId block) const {
+    for (const ir::ProgramId program : input_.module.programs.Ids()) {
+      const auto& blocks = input_.module.programs[program].blocks;
+      if (block.value < blocks.begin || block.value >= blocks.begin + blocks.count) continue;
+      const ir::analysis::Cfg& graph = graphs_.Of(program);
+      const auto ways = graph.Predecessors(block);
+      const bool computed =
+          std::ranges::any_of(graph.ComputedTargets(), [&](BlockId target) { return target == block; });
+      return !graph.Opaque() && !computed && ways.size() == 1 && ways[0].value + 1 == block.value;
+    }
+    return false;
+  }
+
+  /// A loop that ends by one value alone, whose counter starts at a number that stands in the text and goes in steps of
+  /// one size past that value: the note that says so; else empty. Sums of halves, quarters and so on are exact.
+  [[nodiscard]] std::string Missed(ir::ProgramId program, BlockId first, BlockId last, BlockId test,
+                                   ExprOp ends_by) const {
+    const ir::Word& condition = input_.module.words[input_.module.blocks[test].words[0]];
+    if (!condition.value.Valid()) return {};
+    const Expr& compared = input_.module.exprs[Bare(condition.value)];
+    if (compared.op != ends_by) return {};
+    ExprId counter = Bare(ExprId{std::size_t{compared.a}});
+    std::optional<double> end = Literal(ExprId{std::size_t{compared.b}});
+    if (!end) {
+      counter = Bare(ExprId{std::size_t{compared.b}});
+      end = Literal(ExprId{std::size_t{compared.a}});
+    }
+    const Expr& place = input_.module.exprs[counter];
+    if (!end || (place.op != ExprOp::kVariable && place.op != ExprOp::kCell)) return {};
+    std::set<std::pair<std::uint32_t, std::uint64_t>> read;
+    bool shared = false;
+    if (!Reads(program, counter, read, shared) || read.empty()) return {};
+    std::optional<double> step;
+    for (std::uint32_t i = first.value; i <= last.value; ++i) {
+      for (const ir::WordId id : input_.module.blocks[BlockId{std::size_t{i}}].words) {
+        const ir::Word& word = input_.module.words[id];
+        if (!Changes(word, read, shared)) continue;
+        if (word.op != WordOp::kAssign || !SamePlace(input_.module.exprs[word.Extra<ExprId>()], place)) return {};
+        const std::optional<double> this_step = StepOf(word, place, program, first, last);
+        if (!this_step || (step && *step != *this_step)) return {};
+        step = this_step;
+      }
+    }
+    const std::optional<double> start = SetBefore(place, first);
+    if (!step || !start || !StraightInto(first, last)) return {};
+    constexpr double kPart = 1024;
+    constexpr double kMost = 1e9;
+    for (const double number : {*start, *step, *end}) {
+      if (std::fabs(number) > kMost || number * kPart != std::trunc(number * kPart)) return {};
+    }
+    if (*step == 0) return {};
+    if (place.op == ExprOp::kVariable) {
+      // An INT rounds each sum.
+      const ir::Type type = input_.module.variables[ir::VariableId{std::size_t{place.a}}].type;
+      const bool whole = *start == std::trunc(*start) && *step == std::trunc(*step);
+      if (type != ir::Type::kReal && (type != ir::Type::kInt || !whole)) return {};
+    }
+    const double steps = (*end - *start) / *step;
+    if (steps >= 0 && steps == std::trunc(steps)) return {};
+    return fmt::format("it counts {:.10g}, {:.10g}, {:.10g} and so on, never exactly {:.10g}", *start, *start + *step,
+                       *start + 2 * *step, *end);
+  }
+
+  /// The first block of the loop is come to from the block before it and from inside of the loop only.
+  [[nodiscard]] bool StraightInto(BlockId first, BlockId last) const {
+    for (const ir::ProgramId program : input_.module.programs.Ids()) {
+      const auto& blocks = input_.module.programs[program].blocks;
+      if (first.value < blocks.begin || first.value >= blocks.begin + blocks.count) continue;
+      const ir::analysis::Cfg& graph = graphs_.Of(program);
+      for (std::uint32_t i = first.value; i <= last.value; ++i) {
+        for (const BlockId from : graph.Predecessors(BlockId{std::size_t{i}})) {
+          const bool inside = from.value >= first.value && from.value <= last.value;
+          if (!inside && (i != first.value || from.value + 1 != first.value)) return false;
+        }
+      }
+      return std::ranges::none_of(graph.ComputedTargets(), [&](BlockId target) {
+        return target.value >= first.value && target.value <= last.value;
+      });
+    }
+    return false;
   }
 
   /// What the condition reads; false if something else than the program can change it.

@@ -197,6 +197,26 @@ TEST_CASE("value rules: loops that end at one value only") {
   CHECK(Mill("FOR R1=1 TO 5\nG4 F1\nENDFOR\nM30\n").empty());
 }
 
+TEST_CASE("value rules: a counter that steps over the value that ends its loop") {
+  CHECK(Mill("R4=10\nREPEAT\nR4=R4-3\nUNTIL R4==0\nM30\n") == "NC4007 4");
+  CHECK(Mill("R3=3\nR4=10\nG0 X1\nWHILE R4<>0\nR4=R4-R3\nENDWHILE\nM30\n") == "NC4007 4");
+  CHECK(Mill("DEF INT CNT=1\nWHILE 8<>CNT\nCNT=CNT+2\nENDWHILE\nM30\n") == "NC4007 2");
+  CHECK(Mill("R1=2\nWHILE R1<>1\nR1=1+R1\nENDWHILE\nM30\n") == "NC4007 2");
+  CHECK(Macro("O1\n#1=10\nWHILE [#1 NE 0] DO1\n#1=#1-3\nEND1\nM30\n") == "NC4007 3");
+  // It meets the value, or may.
+  CHECK(Mill("R4=9\nREPEAT\nR4=R4-3\nUNTIL R4==0\nM30\n").empty());
+  CHECK(Mill("R4=10\nREPEAT\nR4=R4-3\nUNTIL R4<=0\nM30\n").empty());
+  CHECK(Mill("R4=10\nWHILE R4<>0\nR4=R4-2.5\nENDWHILE\nM30\n").empty());
+  CHECK(Mill("R3=3\nR4=10\nREPEAT\nR4=R4-R3\nR3=1\nUNTIL R4==0\nM30\n").empty());
+  CHECK(Mill("R4=10\nREPEAT\nR4=R4-3\nIF R4<0\nR4=0\nENDIF\nUNTIL R4==0\nM30\n").empty());
+  CHECK(Mill("R4=10\nREPEAT\nR4=R4-3\nIF R4<0 GOTOF AB\nUNTIL R4==0\nAB: M30\n").empty());
+  CHECK(Mill("R4=10\nIF R1>0\nR4=9\nENDIF\nREPEAT\nR4=R4-3\nUNTIL R4==0\nM30\n").empty());
+  CHECK(Mill("R4=10\nAB:\nREPEAT\nR4=R4-3\nUNTIL R4==0\nIF R5>0\nR4=9\nGOTOB AB\nENDIF\nM30\n").empty());
+  CHECK(Mill("DEF INT CNT=0\nWHILE CNT<>2\nCNT=CNT+0.4\nENDWHILE\nM30\n").find("NC4007") == std::string::npos);
+  CHECK(Check("sinumerik-840d-mill", {{"a.mpf", "R4=10\nREPEAT\nR4=R4-3\nUNTIL R4==0\nM30\n"}})
+            .notes.find("it counts 10, 7, 4 and so on, never exactly 0") != std::string::npos);
+}
+
 TEST_CASE("value rules: comparisons beside logic without brackets") {
   CHECK(Mill("IF R1==1 AND R2==1 GOTOF AB\nAB: M30\n") == "NC4010 1");
   CHECK(Mill("IF NOT R1==5 GOTOF AB\nAB: M30\n") == "NC4010 1");

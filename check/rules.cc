@@ -27,6 +27,8 @@ void CheckPrograms(const Subject& subject, diag::Sink& sink) {
   CheckEmptyValues(subject, sink);
   CheckSpindle(subject, sink);
   CheckCallDepth(subject, sink);
+  CheckFeedKind(subject, sink);
+  CheckSpindleSpeed(subject, sink);
 }
 
 }  // namespace ncport::check

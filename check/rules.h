@@ -66,5 +66,10 @@ void CheckEmptyValues(const Subject& subject, diag::Sink& sink);
 void CheckCallDepth(const Subject& subject, diag::Sink& sink);
 /// NC5003: a feed move on no way to which a spindle was started, in a set that starts one.
 void CheckSpindle(const Subject& subject, diag::Sink& sink);
+/// NC5002: a feed move whose last feed, on every way, is of the other kind, where a change of the kind drops the feed.
+void CheckFeedKind(const Subject& subject, diag::Sink& sink);
+/// NC5003: a feed move behind a new speed with which nothing starts the spindle, or behind a start for which no way sets
+/// a speed.
+void CheckSpindleSpeed(const Subject& subject, diag::Sink& sink);
 
 }  // namespace ncport::check

@@ -241,4 +241,40 @@ TEST_CASE("calls with arguments of programs that only EXTERN makes known") {
   CHECK(Mill("SUB1(1)\n" + cycle).empty());
 }
 
+TEST_CASE("a change of the kind of feed needs a new feed") {
+  CHECK(Mill("G94 G0 X0\nG1 X5 F100\nG95\nG1 X9\nM30\n") == "NC5002 4");
+  CHECK(Lathe("G95 G0 X0\nG1 X5 F0.2\nG94\nG0 X9\nG1 X2\nX3\nM30\n") == "NC5002 5");
+  CHECK(Lathe("G94 G0 X0\nG1 X5 F200\nG96 S100 M4\nG1 X2\nM30\n") == "NC5002 4");
+  CHECK(Mill("G94 G0 X0\nG1 X5 F100\nIF R1>0\nG95\nELSE\nG95\nENDIF\nG1 X9\nM30\n") == "NC5002 8");
+  CHECK(Mill("G94 G0 X0\nG1 X5 F100\nG95 F0.1\nG1 X9\nM30\n").empty());
+  CHECK(Mill("G94 G0 X0\nG1 X5 F100\nG95\nG1 X9 F0.1\nM30\n").empty());
+  CHECK(Mill("G94 G0 X0\nG1 X5 F100\nG95\nG0 X9\nM30\n").empty());
+  CHECK(Mill("G94 G0 X0\nG1 X5 F100\nG95\nG94\nG1 X9\nM30\n").empty());
+  // Some way sets it, or may.
+  CHECK(Mill("G94 G0 X0\nG1 X5 F100\nG95\nIF R1>0\nF0.1\nENDIF\nG1 X9\nM30\n").empty());
+  CHECK(Sub("G95\nG1 X9\nM17\n").empty());
+  // There the number goes over.
+  CHECK(Findings("fanuc-lathe-a", "o1.nc", "O1\nG98 G1 X5. F100.\nG99\nG1 X9.\nM30\n").empty());
+}
+
+TEST_CASE("feed moves of a spindle that was not started, or has no speed") {
+  CHECK(Mill("S1000\nG1 X5 F100\nX9\nM30\n") == "NC5003 2");
+  CHECK(Mill("S1000 M3\nG1 X5 F100\nM5\nS2000\nG1 X9\nM30\n") == "NC5003 5");
+  CHECK(Mill("M3\nG0 X1\nG1 X5 F100\nM30\n") == "NC5003 3");
+  CHECK(Lathe("G96 LIMS=2000 M4\nG0 X50\nG1 Z5 F0.2\nM30\n") == "NC5003 3");
+  CHECK(Lathe("G96 S200 LIMS=2000\nG1 Z5 F0.2\nM30\n") == "NC5003 2");
+  CHECK(Mill("S1000 M3\nG1 X5 F100\nM30\n").empty());
+  CHECK(Mill("M3\nS1000\nG1 X5 F100\nM30\n").empty());
+  CHECK(Mill("G1 X5 F100 S1000 M3\nM30\n").empty());
+  CHECK(Mill("S=R1 M3\nG1 X5 F100 M5\nM30\n").empty());
+  // Retracts and probes stand still on purpose, and nothing says otherwise.
+  CHECK(Mill("G1 X5 F100\nM30\n").empty());
+  CHECK(Mill("S1000 M3\nG1 X5 F100\nM5\nG1 X9\nM3\nG1 X5\nM30\n").empty());
+  // The builder's word, a subprogram, a second spindle may do it.
+  CHECK(Mill("S1000 M13\nG1 X5 F100\nM30\n").empty());
+  CHECK(Sub("S1000\nG1 X5 F100\nM17\n").empty());
+  CHECK(Lathe("S2=1000\nG1 X5 F0.1\nM30\n").empty());
+  CHECK(Mill("M3\nIF R1>0\nS500\nENDIF\nG1 X5 F100\nM30\n").empty());
+}
+
 }  // namespace ncport::check

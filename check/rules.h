@@ -64,7 +64,8 @@ void CheckFeed(const Subject& subject, diag::Sink& sink);
 void CheckEmptyValues(const Subject& subject, diag::Sink& sink);
 /// NC9003: calls from a main program that are nested deeper than the control takes (profile: nesting.call).
 void CheckCallDepth(const Subject& subject, diag::Sink& sink);
-/// NC5003: a feed move on no way to which a spindle was started, in a set that starts one.
+/// NC5003: a feed move on no way to which a spindle was started or got a speed, in a set that starts one; also with a new
+/// tool behind a stop.
 void CheckSpindle(const Subject& subject, diag::Sink& sink);
 /// NC5002: a feed move whose last feed, on every way, is of the other kind, where a change of the kind drops the feed.
 void CheckFeedKind(const Subject& subject, diag::Sink& sink);

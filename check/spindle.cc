@@ -1,4 +1,4 @@
-// A cut with a spindle that stands.
+// A cut before the first start of the spindle, or with a new tool and no new start.
 #include "check/motion_words.h"
 #include "check/rules.h"
 #include "ir/analysis/forward_flow.h"
@@ -18,13 +18,11 @@ bool Turns(const ir::Word& word) {
 class SpindleFlow {
  public:
   using State = std::uint8_t;
-  static constexpr State kStand = 1, kTurn = 2, kEither = kStand | kTurn;
+  /// kStopped: behind a stop a move is one that is meant, a probe or a way out, until another tool comes.
+  static constexpr State kStand = 1, kTurn = 2, kStopped = 4, kEither = kStand | kTurn;
 
-  /// `stops`: M5 is known to end a cut. On lathes moves with a standing spindle are usual: they pull bars, and the
-  /// other spindle turns.
-  SpindleFlow(const Subject& subject, bool stops)
+  explicit SpindleFlow(const Subject& subject)
       : module_(subject.module),
-        stops_(stops),
         flow_({subject.module, subject.machine, subject.graphs, subject.calls, &subject.modal}, *this) {
     flow_.Run();
   }
@@ -60,11 +58,14 @@ class SpindleFlow {
         case WordOp::kSpindle:
           if (Turns(word))
             state = kTurn;
-          else if (static_cast<ir::SpindleState>(word.extra) != ir::SpindleState::kStop || !stops_)
-            state |= kTurn;
           else
-            state = kStand;
+            state = static_cast<ir::SpindleState>(word.extra) == ir::SpindleState::kStop ? kStopped : kEither;
           break;
+        case WordOp::kTool:
+        case WordOp::kToolChange:
+          if (state == kStopped) state = kStand;
+          break;
+        case WordOp::kSpeed:  // a speed that nothing starts is told by CheckSpindleSpeed
         case WordOp::kAux:  // the builder's: M13 starts spindle and coolant
         case WordOp::kComputedM:
         case WordOp::kVerbatim:
@@ -77,7 +78,6 @@ class SpindleFlow {
   }
 
   const ir::Module& module_;
-  bool stops_;
   ir::analysis::ForwardFlow<SpindleFlow> flow_;
 };
 
@@ -89,7 +89,7 @@ void CheckSpindle(const Subject& subject, diag::Sink& sink) {
   bool starts = false;
   for (const ir::Word& word : module.words.All()) starts = starts || Turns(word);
   if (!starts) return;
-  const SpindleFlow flow(subject, subject.profile.machine == dialects::MachineKind::kMill);
+  const SpindleFlow flow(subject);
   for (const ir::ProgramId program : module.programs.Ids()) {
     if (module.programs[program].library || subject.graphs.Of(program).Opaque()) continue;
     for (const BlockId id : module.programs[program].blocks) {

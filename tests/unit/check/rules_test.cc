@@ -244,7 +244,7 @@ TEST_CASE("calls with arguments of programs that only EXTERN makes known") {
 TEST_CASE("a change of the kind of feed needs a new feed") {
   CHECK(Mill("G94 G0 X0\nG1 X5 F100\nG95\nG1 X9\nM30\n") == "NC5002 4");
   CHECK(Lathe("G95 G0 X0\nG1 X5 F0.2\nG94\nG0 X9\nG1 X2\nX3\nM30\n") == "NC5002 5");
-  CHECK(Lathe("G94 G0 X0\nG1 X5 F200\nG96 S100 M4\nG1 X2\nM30\n") == "NC5002 4");
+  CHECK(Lathe("G94 G0 X0 S500 M4\nG1 X5 F200\nG96 S100 M4\nG1 X2\nM30\n") == "NC5002 4");
   CHECK(Mill("G94 G0 X0\nG1 X5 F100\nIF R1>0\nG95\nELSE\nG95\nENDIF\nG1 X9\nM30\n") == "NC5002 8");
   CHECK(Mill("G94 G0 X0\nG1 X5 F100\nG95 F0.1\nG1 X9\nM30\n").empty());
   CHECK(Mill("G94 G0 X0\nG1 X5 F100\nG95\nG1 X9 F0.1\nM30\n").empty());

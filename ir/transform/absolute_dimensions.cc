@@ -248,6 +248,11 @@ bool DimensionPass::UsesSlot(BlockId id, Slot slot) const {
   if (PassedAt(id) >> slot & 1U) return true;
   if (UsesForPlane(id, slot) || UsesForFrame(id, slot)) return true;
   if (StepOf(id, slot) == Step::kIncremental && !KeptAt(id, slot)) return true;
+  // The circles in front of the last turn share the way from where the axes stand.
+  const bool plane_axis = slot < 3;
+  if (Has(module_, module_.blocks[id], WordOp::kTurns) &&
+      (plane_axis || (slot < kLetterAxes && WordFor(id, slot) != nullptr)))
+    return true;
   for (const WordId word : module_.blocks[id].words) {
     const Word& center = module_.words[word];
     if (center.op == WordOp::kCenter && center.index == slot && center.mode == ValueMode::kAbsolute) return true;

@@ -389,6 +389,21 @@ TEST_CASE("additional turns become circles, the depth runs evenly over the whole
   CHECK_FALSE(sink.HasErrors());
 }
 
+TEST_CASE("a position that additional turns share is taken out of its cell before that changes") {
+  diag::Sink sink;
+  CHECK(Absolute("  @m:1 : axis X = 10; axis Y = 0; axis Z = R[1]\n"
+                 "  @m:2 : assign R[1] = 0\n"
+                 "  @m:3 : motion arc-ccw; axis Z = -5; center I step = -10; turns = 1; feed = 9\n",
+                 sink) ==
+        "program M main\n"
+        "axis X absolute = 10; axis Y absolute = 0; axis Z absolute = R[1]\n"
+        "assign variable POS_Z = R[1]\n"
+        "assign R[1] = 0\n"
+        "motion arc-ccw; axis Z absolute = sub(mul(0.5, variable POS_Z), 2.5); center I step = -10; feed = 9\n"
+        "motion arc-ccw; axis Z absolute = -5; center I step = -10\n");
+  CHECK_FALSE(sink.HasErrors());
+}
+
 TEST_CASE("turns that cannot be written out are refused") {
   for (const std::string_view arc :
        {"axis X = 0; axis Y = 10; radius = 10; turns = 1", "center I step = -10; turns = R[1]",

@@ -676,7 +676,57 @@ void DimensionPass::RewriteMachineWords(BlockId id) {
   rewritten_.emplace_back(id, std::move(words));
 }
 
+/// True where some program switches to inches: a unit that is not one on every way may then be that.
+bool DimensionPass::InchesOccur() const {
+  const auto inch = [](Units units) { return units == Units::kInch || units == Units::kInchGeometry; };
+  if (inch(source_.start.units) || inch(config_.sub_entry.units)) return true;
+  return std::ranges::any_of(module_.words.All(), [&](const Word& word) {
+    return word.op == WordOp::kUnits && inch(static_cast<Units>(word.index));
+  });
+}
+
+void DimensionPass::RefuseOpenUnits(BlockId id) {
+  const ModalState state = flow_.At(program_, id);
+  if (!inches_ || state.units != Units::kUnknown || !flow_.Reached(program_, id)) return;
+  const Block& block = module_.blocks[id];
+  if (Has(module_, block, WordOp::kReference)) return;
+  const Word* const frame = FrameWord(id);
+  const bool turns = frame != nullptr && frame->index != static_cast<std::uint8_t>(FrameOp::kTranslate) &&
+                     frame->index != static_cast<std::uint8_t>(FrameOp::kAddTranslate);
+  for (const WordId word_id : block.words) {
+    const Word& word = module_.words[word_id];
+    bool length = false;
+    switch (word.op) {
+      case WordOp::kAxis:
+        length = !IsRotary(word.index) && !turns;
+        break;
+      case WordOp::kCenter:
+      case WordOp::kRadius:
+      case WordOp::kVia:
+      case WordOp::kChamfer:
+      case WordOp::kPolarRadius:
+        length = true;
+        break;
+      case WordOp::kFeed:
+      case WordOp::kFeedOnce:
+        length = state.feed_mode != FeedMode::kInverseTime;
+        break;
+      case WordOp::kSpeed:
+        length = state.speed_mode == SpeedMode::kConstantSurface;
+        break;
+      default:
+        break;
+    }
+    if (!length) continue;
+    ok_ = false;
+    sink_.Report(diag::Code::kUnknownModalState, module_.RangeOf(block, word), "the unit of lengths (mm or inch)",
+                 "the programs that lead here leave it open");
+    return;
+  }
+}
+
 void DimensionPass::RewriteWords(BlockId id, const Slots& in) {
+  RefuseOpenUnits(id);
   if (Has(module_, module_.blocks[id], WordOp::kMachineCoords)) return RewriteMachineWords(id);
   if (plane_words_[IndexOf(id)].kind == PlaneWords::Kind::kPole) return RemovePole(id, in);
   if (config_.work_frames_in && FrameWord(id) != nullptr) return RemoveFrame(id);
@@ -794,6 +844,7 @@ bool DimensionPass::RunProgram(ProgramId program) {
 }
 
 bool DimensionPass::Run() {
+  inches_ = InchesOccur();
   FindRanges();
   FindEffects();
   FindKept();

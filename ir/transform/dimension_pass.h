@@ -168,6 +168,8 @@ class DimensionPass {
   };
   Scale ScaleOf(const Word& word, std::uint8_t axis, const ModalState& state, BlockId block, bool report);
   static double UnitFactor(const ModalState& state);
+  [[nodiscard]] bool InchesOccur() const;
+  void RefuseOpenUnits(BlockId block);
   ExprId Scaled(ExprId value, double factor);
   [[nodiscard]] LinearForm ScaledForm(ExprId value, double factor) const {
     return Sum(module_, {}, FormOf(module_, value), factor);
@@ -291,6 +293,7 @@ class DimensionPass {
   std::vector<std::pair<BlockId, std::vector<Word>>> rewritten_;  // changed when all blocks were looked at
   SlotMask saving_ = 0;                                           // slots whose locals are being written
   SlotMask unknown_left_ = 0;                                     // positions that some end does not know
+  bool inches_ = false;
   bool ok_ = true;
 };
 

@@ -404,6 +404,21 @@ TEST_CASE("a position that additional turns share is taken out of its cell befor
   CHECK_FALSE(sink.HasErrors());
 }
 
+TEST_CASE("lengths and feeds under a unit that is not one on every way are refused where one of them is inches") {
+  for (const std::string behind : {"axis X = 5", "feed = 5", "center I step = 5"}) {
+    for (const bool inch : {true, false}) {
+      CAPTURE(behind);
+      diag::Sink sink;
+      Absolute(
+          "  @m:1 : axis X = 10; axis Y = 0; axis Z = 0\n"
+          "  @m:2 skip 1 : units " +
+              std::string(inch ? "inch" : "mm") + "\n  @m:3 : " + behind + "\n",
+          sink);
+      CHECK(sink.HasErrors() == inch);
+    }
+  }
+}
+
 TEST_CASE("turns that cannot be written out are refused") {
   for (const std::string_view arc :
        {"axis X = 0; axis Y = 10; radius = 10; turns = 1", "center I step = -10; turns = R[1]",

@@ -60,7 +60,7 @@ struct Event {
   ir::Plane plane = ir::Plane::kXY;
   ir::FeedMode feed_mode = ir::FeedMode::kPerMinute;
   ir::CutterComp comp = ir::CutterComp::kOff;
-  ir::PathMode path = ir::PathMode::kExact;
+  ir::PathMode path = ir::PathMode::kExact;  // kPath; unknown: comparisons must know, traces leave the event out
   ir::SpindleState spindle_state = ir::SpindleState::kStop;
   OffsetKind offset = OffsetKind::kNone;
   bool clockwise = false;               // kArc
@@ -70,6 +70,7 @@ struct Event {
   bool added = false;                   // from a block or word that a pass added
   bool tool_waits = false;              // kTool: it only stands ready until a tool change
   bool length_minus = false;            // kOffset, kLength: it is taken off, not added
+  bool one_block = false;               // kPath: begin or end of an exact stop of one block
   bool tool_change = false;             // kAux: the tool that stands ready comes in
   std::uint8_t spindle = 0;             // below kSpindles; 0 = master
   std::uint8_t transverse_axis = 0xFF;  // that diameter words hold for; 0xFF = none

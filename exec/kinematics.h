@@ -39,7 +39,7 @@ class Kinematics {
   void SetFeedMode(ir::FeedMode mode);
   void SetSpeedMode(const ir::Word& word, const BlockWork& work);
   void SetWorkOffset(const ir::WorkOffset& offset);
-  void SetPath(ir::PathMode mode);
+  void SetPath(ir::PathMode mode, bool one_block = false);
   void SetFeed(const BlockWork& work);
   void ShowComp();
   [[nodiscard]] double LengthFactor() const;  // of lengths as programmed, to mm

@@ -155,12 +155,12 @@ void Kinematics::SetWorkOffset(const ir::WorkOffset& offset) {
   emitter_.Send(event);
 }
 
-void Kinematics::SetPath(ir::PathMode mode) {
+void Kinematics::SetPath(ir::PathMode mode, bool one_block) {
   if (mode == channel_.modal.path) return;
-  channel_.modal.path = mode;
-  if (mode == ir::PathMode::kUnknown) return;
+  channel_.modal.path = mode;  // unknown again behind an exact stop of one block, where it was unknown before
   Event& event = emitter_.Begin(EventKind::kPath);
   event.path = mode;
+  event.one_block = one_block;
   emitter_.Send(event);
 }
 

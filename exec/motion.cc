@@ -63,9 +63,9 @@ bool Kinematics::Move(const BlockWork& work) {
     return false;
   }
   const ir::PathMode path = channel_.modal.path;
-  if (work.Has(BlockWork::kExactOnce)) SetPath(ir::PathMode::kExact);
+  if (work.Has(BlockWork::kExactOnce)) SetPath(ir::PathMode::kExact, true);
   const bool moved = MoveByMode(work);
-  if (work.Has(BlockWork::kExactOnce)) SetPath(path);
+  if (work.Has(BlockWork::kExactOnce)) SetPath(path, true);
   return moved && !session_.halted;
 }
 

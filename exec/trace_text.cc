@@ -241,6 +241,7 @@ TraceWriter::TraceWriter(OutputSink& output, const ir::Module& module, TraceForm
 }
 
 bool TraceWriter::OnEvent(const Event& event) {
+  if (event.kind == EventKind::kPath && event.path == ir::PathMode::kUnknown) return true;
   if (format_ == TraceFormat::kText) {
     AppendTraceLine(buffer_, event, module_);
   } else {

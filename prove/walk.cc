@@ -67,7 +67,9 @@ bool Walk::TakeState(const Event& event) {
         return before.comp != state.comp &&
                !(before.comp == ir::CutterComp::kUnknown && state.comp == ir::CutterComp::kOff);
       case EventKind::kPath:
-        state.path = event.path;
+        // Behind an exact stop of one block holds what held before it, be it the word of a block that was added.
+        if (event.one_block && event.path == ir::PathMode::kExact) state.path_before = state.path;
+        state.path = event.one_block && event.path != ir::PathMode::kExact ? state.path_before : event.path;
         return before.path != state.path;
       default:
         return true;

@@ -42,6 +42,7 @@ struct Selected {
   std::uint32_t wcs = 0, wcs_extension = 0;
   ir::CutterComp comp = ir::CutterComp::kUnknown;
   ir::PathMode path = ir::PathMode::kUnknown;
+  ir::PathMode path_before = ir::PathMode::kUnknown;  // the exact stop of one block
 
   void TakeTool() {
     tool_known = called_known;

@@ -131,10 +131,9 @@ void FlatWriter::Dispatch(const exec::Event& event) {
     case EventKind::kWorkOffset:
       return WorkOffset(event);
     case EventKind::kPath:
-      CommentLine("PATH", event.path == ir::PathMode::kExact        ? "EXACT"
-                          : event.path == ir::PathMode::kContinuous ? "CONTINUOUS"
-                                                                    : "UNKNOWN");
-      Refuse(diag::Code::kListedLoss, event.path == ir::PathMode::kContinuous ? "continuous path mode" : "exact stop");
+      if (event.path == ir::PathMode::kUnknown) return;  // the end of an exact stop
+      CommentLine("PATH", event.path == ir::PathMode::kExact ? "EXACT" : "CONTINUOUS");
+      Refuse(diag::Code::kListedLoss, event.path == ir::PathMode::kExact ? "exact stop" : "continuous path mode");
       return;
     case EventKind::kAux:
       return Aux(event);

@@ -525,10 +525,11 @@ TEST_CASE("a step of nothing on the way to the reference point is no move, any o
 }
 
 TEST_CASE("the path mode counts at motions, wherever it was selected") {
-  const auto path = [](ir::PathMode mode) {
+  const auto path = [](ir::PathMode mode, bool one_block = false) {
     Event event;
     event.kind = EventKind::kPath;
     event.path = mode;
+    event.one_block = one_block;
     return event;
   };
   Trace a, head, other;
@@ -554,6 +555,14 @@ TEST_CASE("the path mode counts at motions, wherever it was selected") {
   other_mode.Line(2, 2, 2).End();
   CHECK(Agree(none, same));
   CHECK_FALSE(Agree(none, other_mode));
+  // An exact stop of one block, before and behind which the source does not say its mode: the head of the target does.
+  Trace once, target, stays;
+  once.Put(path(ir::PathMode::kExact, true)).Line(1, 1, 1).Put(path(ir::PathMode::kUnknown, true)).Line(2, 1, 1).End();
+  target.Added().Put(path(ir::PathMode::kContinuous)).Put(path(ir::PathMode::kExact, true)).Line(1, 1, 1);
+  target.Put(path(ir::PathMode::kContinuous, true)).Line(2, 1, 1).End();
+  stays.Put(path(ir::PathMode::kExact)).Line(1, 1, 1).Line(2, 1, 1).End();
+  CHECK(Agree(once, target));
+  CHECK_FALSE(Agree(once, stays));
 }
 
 }  // namespace

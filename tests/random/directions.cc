@@ -21,12 +21,14 @@ namespace {
 constexpr std::string_view kWithTools = NCPORT_NO_FANUC NCPORT_SELDOM_FANUC ",plane=0,frame=0";
 constexpr std::string_view kWithoutTools = NCPORT_NO_FANUC NCPORT_SELDOM_FANUC ",tool=0,cutter-comp=0";
 #undef NCPORT_SELDOM_FANUC
-// What has no way back: what a computed number or a unit stands for must be known there.
-#define NCPORT_NO_WAY_BACK                                                                              \
-  ",thread-variable=0,feed-across-thread=0,reference=0,fractional-speed=0,save-modes=0" \
-  ",units=0,bit-operations=0,integer-division=0,computed-index=0,skip-level=0,surface-speed=0,frame=0," \
-  "feed-mode=0,thread=0,tangle=0,case=0,plain-jump=0,plain-truth=0,loop=0,alarm=0"
-constexpr std::string_view kBackWithTools = NCPORT_NO_FANUC ",plane=0" NCPORT_NO_WAY_BACK;
+// What has no way back: what a computed number or a unit stands for must be known there, and bits, indices and blocks
+// that may be skipped ask for values that are never empty. Labels that jumps skip to and conditions that are always
+// true leave code that no way reaches, where neither is known.
+#define NCPORT_NO_WAY_BACK                                                                            \
+  ",thread-variable=0,feed-across-thread=0,reference=0,fractional-speed=0,save-modes=0"               \
+  ",units=0,bit-operations=0,computed-index=0,skip-level=0,surface-speed=0,feed-mode=0,plain-jump=0," \
+  "plain-truth=0"
+constexpr std::string_view kBackWithTools = NCPORT_NO_FANUC ",plane=0,frame=0" NCPORT_NO_WAY_BACK;
 constexpr std::string_view kBackWithoutTools = NCPORT_NO_FANUC ",tool=0,cutter-comp=0" NCPORT_NO_WAY_BACK;
 #undef NCPORT_NO_WAY_BACK
 #undef NCPORT_NO_FANUC

@@ -84,6 +84,7 @@ std::string Printed(const ir::Module& module, const dialects::Profile& profile) 
 /// Takes the options of a command line that a job can have.
 void TakeOptions(const std::vector<std::string>& words, const fs::path& folder, Job& job) {
   job.refused = job.refused || std::ranges::find(words, "--refused") != words.end();
+  job.keep = job.keep || std::ranges::find(words, "--increments=keep") != words.end();
   job.print = job.print || std::ranges::find(words, "--print") != words.end();
   const auto in_folder = [&](const std::string& name) {
     return fs::exists(folder / name) ? (folder / name).string() : name;
@@ -398,7 +399,7 @@ std::string Subject::Write(std::string& text, std::vector<backends::OutputFile>&
     Tell(context.findings, translation);
     return {};
   }
-  const backends::TranslateInput input{&set_.module, &set_.profile, &machine_, &target_, &config_};
+  const backends::TranslateInput input{&set_.module, &set_.profile, &machine_, &target_, &config_, job_.keep};
   if (!backends::Raise(input, translation, context.findings)) return Refusal(context.findings);
   files = backends::Print(target_, translation, {});
   Tell(context.findings, translation);

@@ -28,6 +28,7 @@ struct Job {
   bool alarms = false;   // the expected trace ends in an alarm
   bool golden = false;   // the golden cases compare what is written word by word
   bool refused = false;  // the target refuses it, for reasons that are named
+  bool keep = false;     // increments stay where the target has words for them
   bool print = false;    // printed in its own language from what it means, and read back
 };
 

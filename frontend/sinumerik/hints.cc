@@ -27,9 +27,9 @@ class Hints {
   void Run() {
     // Each looks for one kind of slip; the first that fits has the word.
     (void)(GroupIndex() || TornNumber() || LettersInNumber() || NewName() || TornName() || MissingType() ||
-           ForeignOperator() || Dwell() || Comparison() || NoFunction() || NoBrackets() || LooseCell() ||
-           NoOperator() || Closer() || Gap() || SecondSign() || MissingValue() || ForeignName() || TornWord() ||
-           ColonOfLabel() || Statement() || InnerWord() || CommentMark());
+           ForeignOperator() || Dwell() || Incomplete() || ForeignSign() || Comparison() || NoFunction() ||
+           NoBrackets() || LooseCell() || NoOperator() || Closer() || Gap() || SecondSign() || MissingValue() ||
+           ForeignName() || TornWord() || ColonOfLabel() || Statement() || InnerWord() || CommentMark());
     if (!help_.empty()) error_.help = help_.c_str();
   }
 
@@ -191,6 +191,46 @@ class Hints {
     return false;
   }
 
+  // `R1++`, `R1+=5`, `2**3`, `X10 // text`: signs of other languages.
+  bool ForeignSign() {
+    if (at_ == 0) return false;
+    for (const std::size_t token : {at_ - 1, at_}) {
+      const K kind = KindAt(token);
+      if (kind != KindAt(token + 1) || tokens_[token].End() != tokens_[token + 1].offset) continue;
+      if (kind == K::kSlash) {
+        Put(Code::kUnexpectedText, token);
+        return Say("a comment begins with ;");
+      }
+      if (kind == K::kStar) return Say("there is no sign for powers: POT(..) is the square");
+      const bool end = token + 2 >= tokens_.size();
+      if (end && token > 0 && (kind == K::kPlus || kind == K::kMinus))
+        return Say("a value is set with =: {}={}{}1", TextOf(token - 1), TextOf(token - 1), TextOf(token));
+    }
+    const bool sign = Kind() == K::kPlus || Kind() == K::kMinus || Kind() == K::kStar || Kind() == K::kSlash;
+    if (sign && at_ == First() + 1 && KindAt(at_ + 1) == K::kEquals && tokens_[at_].End() == tokens_[at_ + 1].offset)
+      return Say("a value is set with =: {}={}{}..", TextOf(at_ - 1), TextOf(at_ - 1), TextOf(at_));
+    return false;
+  }
+
+  // What is missing in a head: `IF GOTOF A`, `DEF STRING A`, `M98 P1000`, `1ANF:`, `SCALE 2`.
+  bool Incomplete() {
+    if (Before() == K::kIf && Kind() == K::kGoto) return Say("a condition is missing behind IF");
+    if (Before() == K::kStringType && KindAt(First()) != K::kExtern)
+      return Say("a STRING has its greatest length in []: STRING[20]");
+    if (KindAt(First()) == K::kExtern && Before() == K::kType && Kind() == K::kName)
+      return Say("EXTERN lists types alone, without names");
+    if (at_ == First() && Before() != K::kLabel && Kind() == K::kNumber &&
+        line_.substr(0, line_.find(';')).find(':') != std::string_view::npos)
+      return Say("a label begins with two letters, or with _ and a letter");
+    if (Kind() == K::kPassesValue || Kind() == K::kPasses) {
+      for (std::size_t i = First(); i < at_; ++i) {
+        if (KindAt(i) == K::kCode && IsWord(TextOf(i), "M98"))
+          return Say("a subprogram is called by its name; P behind the name is the number of passes");
+      }
+    }
+    return false;
+  }
+
   // `=` for `==` and the other way round; `=>`.
   bool Comparison() {
     // `R2:=5`, `R2:5`: the sign of other languages; the colon makes a label.
@@ -338,7 +378,8 @@ class Hints {
   bool Gap() {
     if (Kind() == K::kComma) {
       if (Before() == K::kComma) return Say("a value is missing between the commas");
-      if (Before() == K::kAxisValue || Before() == K::kAddressValue || Before() == K::kNumber)
+      const bool digit = at_ + 1 < tokens_.size() && KindAt(at_ + 1) == K::kNumber && !Holds(K::kFor);
+      if (digit && (Before() == K::kAxisValue || Before() == K::kAddressValue || Before() == K::kNumber))
         return Say("the decimal sign is a point");
       return false;
     }
@@ -606,6 +647,11 @@ void ExplainWord(std::string_view line, LineError& error, std::string& help) {
   }
   if (error.begin >= line.size() || error.help != nullptr) return;
   if (JumpWithZeros(line, error, help)) return;
+  if (error.code == Code::kUnknownCode) {
+    // Its own text: no copy is needed.
+    error.help = InsteadOfCode(line.substr(error.begin, error.length));
+    return;
+  }
   const char c = Upper(line[error.begin]);
   const std::string_view behind = line.substr(error.begin + 1);
   const auto digit_at = [&](std::size_t i) { return i < line.size() && IsDigit(line[i]); };
@@ -638,6 +684,17 @@ void ExplainWord(std::string_view line, LineError& error, std::string& help) {
              .begin = static_cast<std::uint32_t>(begin),
              .length = static_cast<std::uint32_t>(end - begin)};
     help = fmt::format("did you mean {}?", word);
+  } else if (error.code == Code::kUnknownAddress && c == 'O' && error.begin == 0 && digit_at(next)) {
+    help = "programs have names, that of the file or %_N_NAME_MPF in front of them; is the digit 0 meant?";
+  } else if (error.code == Code::kMissingValue && error.begin + error.length < line.size() &&
+             line[error.begin + error.length] == '"') {
+    const std::string_view text = line.substr(error.begin + error.length);
+    const std::size_t quote = text.find('"', 1);
+    if (quote != std::string_view::npos)
+      help = fmt::format("a text stands behind =: {}={}", line.substr(error.begin, error.length),
+                         text.substr(0, quote + 1));
+  } else if (error.code == Code::kUnknownCharacter && c == '^') {
+    help = "there is no sign for powers: POT(..) is the square";
   } else if (error.code == Code::kUnknownAddress && c == 'O') {
     help = "the letter O; is the digit 0 meant?";
   } else if (error.code == Code::kUnknownCharacter && c == '!' && behind.starts_with('=')) {
@@ -649,11 +706,18 @@ void ExplainWord(std::string_view line, LineError& error, std::string& help) {
     // `'H3G'`: the digit that its base does not have.
     const bool hex = behind.starts_with('H') || behind.starts_with('h');
     const bool binary = behind.starts_with('B') || behind.starts_with('b');
+    std::size_t wrong = 0;
     for (std::size_t i = 1; (hex || binary) && i < behind.size() && behind[i] != '\''; ++i) {
       const char digit = Upper(behind[i]);
       if (hex ? IsDigit(digit) || (digit >= 'A' && digit <= 'F') : digit == '0' || digit == '1') continue;
+      // One wrong digit is a slip, letters alone are a word.
+      if (++wrong > 1) {
+        const std::string_view content = behind.substr(0, behind.find('\''));
+        if (std::none_of(content.begin(), content.end(), IsDigit))
+          help = "a text stands in double quotes; these mark hexadecimal and binary numbers";
+        break;
+      }
       help = fmt::format("{} is no digit of a {} number", behind[i], hex ? "hexadecimal" : "binary");
-      break;
     }
     if (!hex && !binary) help = "a text stands in double quotes; these mark hexadecimal and binary numbers";
   } else if (error.code == Code::kMissingValue && (c == 'I' || c == 'L') && error.begin > 1 &&

@@ -181,6 +181,10 @@ bool Resolver::UnknownName(ExprId id, std::string_view name) {
   if (is_program || labels_.contains(key)) {
     finding.help = std::string(name) + (is_program ? " is a program" : " is a label") +
                    " here; a name that is handed on is a text and stands in quotes: \"" + std::string(name) + "\"";
+  } else if (const auto* system = dialects::sinumerik::FindSystemVariable(key);
+             system != nullptr && !dialects::sinumerik::IsUnlistedSystemVariable(key) &&
+             !dialects::sinumerik::IsMachineData(key)) {
+    finding.help = "did you mean $" + key + "?";
   } else if (const std::string mode = AsModeWithValue(name); !mode.empty()) {
     finding.help = "did you mean " + mode + "?";
   } else if (!address.empty()) {

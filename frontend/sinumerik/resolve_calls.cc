@@ -97,7 +97,7 @@ bool Resolver::Call(ir::Word& word) {
       }
     }
     if (call.name_expr.Valid()) {
-      if (!Scalar(call.name_expr)) return false;
+      if (!ScalarOrText(call.name_expr)) return false;
       const ir::Expr& resolved = module_.exprs[call.name_expr];
       if (resolved.type != Type::kString && resolved.type != Type::kAny) {
         return Mismatch(call.name_expr, "a number", "the name of a program");

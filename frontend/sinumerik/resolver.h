@@ -55,6 +55,7 @@ class Resolver {
   void Marks(const ir::Block& block);
   [[nodiscard]] std::string_view Slice(const SourceRange& at) const;
   bool PolarBesideAxis(const ir::Block& block);
+  void Sign(const ir::Word& word);
   bool Turn(const ir::Word& word);
   void Spindles(const ir::Block& block);
   bool Limit(const ir::Word& word, double low, double high, std::string_view range);

@@ -33,6 +33,46 @@ constexpr ForeignOperatorWord kForeignOperators[] = {
     {"LT", "less", "<"},   {"LE", "less or equal", "<="},
 };
 
+struct ForeignCode {
+  std::string_view text;
+  const char* help;
+};
+
+// Card 11, the way from Fanuc.
+constexpr char kCycles[] =
+    "holes are drilled with MCALL CYCLE81(..) to CYCLE89(..), then the positions, and MCALL alone behind the last one";
+constexpr ForeignCode kForeignCodes[] = {
+    {"G20", "inches are G70, with feeds G700"},
+    {"G21", "millimetres are G71, with feeds G710"},
+    {"G28", "the reference point is G74 with machine axes, a fixed point G75; a retract may be SUPA with D0"},
+    {"G30", "a fixed point is G75 FP=.. with machine axes"},
+    {"G43", "there is no G43: the edge D brings the length of its tool"},
+    {"G44", "there is no G44: the edge D brings the length of its tool"},
+    {"G49", "there is no G49: D0 takes the offsets of the tool away"},
+    {"G50", "the limit of the spindle speed is LIMS=.., a shift of the origin TRANS"},
+    {"G65", "a subprogram is called by its name, with values in brackets: NAME(1,2)"},
+    {"G66", "a modal call is MCALL NAME(..)"},
+    {"G67", "a modal call is ended by MCALL alone"},
+    {"G68", "a rotation is ROT or AROT with RPL=.."},
+    {"G69", "a rotation is taken back by ROT alone"},
+    {"G73", kCycles},
+    {"G80", "there is no G80: MCALL alone ends a modal cycle"},
+    {"G81", kCycles},
+    {"G82", kCycles},
+    {"G83", kCycles},
+    {"G84", kCycles},
+    {"G85", kCycles},
+    {"G86", kCycles},
+    {"G87", kCycles},
+    {"G88", kCycles},
+    {"G89", kCycles},
+    {"G92", "the limit of the spindle speed is LIMS=.., a shift of the origin TRANS"},
+    {"G98",
+     "there is no G98: the plane of the retract is the first argument of a drilling cycle, the feed per minute G94"},
+    {"G99",
+     "there is no G99: the plane of the retract is the first argument of a drilling cycle, the feed per turn G95"},
+};
+
 /// Words that begin or hold together a block.
 constexpr std::string_view kStatementWords[] = {
     "DEF",    "DEFINE", "PROC",    "EXTERN", "IF",     "ELSE",  "ENDIF",  "WHILE",   "ENDWHILE", "FOR",
@@ -58,6 +98,15 @@ const ForeignWord* FindForeignWord(std::string_view word) {
 const ForeignOperatorWord* FindForeignOperator(std::string_view word) {
   for (const ForeignOperatorWord& foreign : kForeignOperators) {
     if (IsWord(word, foreign.text)) return &foreign;
+  }
+  return nullptr;
+}
+
+const char* InsteadOfCode(std::string_view code) {
+  const std::size_t digits = code.find_first_not_of('0', 1);
+  if (code.empty() || digits == std::string_view::npos) return nullptr;
+  for (const ForeignCode& foreign : kForeignCodes) {
+    if (Upper(code[0]) == foreign.text[0] && code.substr(digits) == foreign.text.substr(1)) return foreign.help;
   }
   return nullptr;
 }

@@ -24,6 +24,10 @@ struct ForeignOperatorWord {
 /// EQ, NE, GT, GE, LT, LE; null for other words.
 const ForeignOperatorWord* FindForeignOperator(std::string_view word);
 
+/// What this control has in place of a code of other controls: `G43`, `G28`, `G81`; null for codes that have no such
+/// row. `code` as written, leading zeros do not count.
+const char* InsteadOfCode(std::string_view code);
+
 /// A word that begins a block, spelled nearly so, or nothing.
 std::string_view NearStatementWord(std::string_view word);
 /// A code with a name (DIAMON, BRISK), spelled nearly so, or nothing.

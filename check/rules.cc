@@ -18,6 +18,7 @@ void CheckPrograms(const Subject& subject, diag::Sink& sink) {
     CheckNesting(subject, program, sink);
     CheckLostDigits(subject, program, sink);
     CheckUnsetValues(subject, program, sink);
+    CheckModalCalls(subject, program, sink);
   }
   CheckUnusedNames(subject, sink);
   CheckSharedNames(subject, sink);

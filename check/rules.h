@@ -36,6 +36,8 @@ void CheckArcWords(const Subject& subject, ir::ProgramId program, diag::Sink& si
 void CheckLoopCounters(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
 /// NC3010: EQ or NE with a fraction that binary numbers do not hold, where the control compares exactly.
 void CheckExactComparisons(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
+/// NC4014: a modal call that is still in force where the tool changes, or where a cycle would run at a retract.
+void CheckModalCalls(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
 
 /// NC9003: brackets, loops and branches nested deeper than the control takes (profile: nesting).
 void CheckNesting(const Subject& subject, ir::ProgramId program, diag::Sink& sink);

@@ -277,4 +277,20 @@ TEST_CASE("feed moves of a spindle that was not started, or has no speed") {
   CHECK(Mill("M3\nIF R1>0\nS500\nENDIF\nG1 X5 F100\nM30\n").empty());
 }
 
+TEST_CASE("modal calls that are still in force") {
+  const std::string call = "S1000 M3 F100\nG0 X0 Y0 Z20\nMCALL CYCLE81(10,0,2,-5)\nX10 Y10\n";
+  CHECK(Mill(call + "G0 Z50\nM30\n") == "NC4014 5");
+  CHECK(Mill(call + "T5 M6\nM30\n") == "NC4014 5");
+  CHECK(Mill(call + "G0 SUPA Z0\nM30\n") == "NC4014 5");
+  CHECK(Mill(call + "MCALL\nG0 Z50\nT5 M6\nM30\n").empty());
+  CHECK(Mill(call + "X30\nZ12 X40\nM30\n").empty());
+  CHECK(Mill(call + "IF R1>0\nMCALL\nENDIF\nG0 Z50\nM30\n").empty());
+  CHECK(Mill(call + "M30\n").empty());
+  // What a program of the user does behind such a move is its own.
+  const std::string own = "%_N_MA_MPF\nMCALL UPA\nX10\n";
+  const std::string upa = "M30\n%_N_UPA_SPF\nG91 G1 Z-1 F50\nG90\nM17\n";
+  CHECK(Mill(own + "Z5\nMCALL\n" + upa).empty());
+  CHECK(Mill(own + "T5 M6\n" + upa) == "NC4014 4");
+}
+
 }  // namespace ncport::check

@@ -2,10 +2,37 @@
 
 namespace ncport::check {
 
+namespace {
+
+bool IsLetter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_'; }
+bool BeginsWithTwo(std::string_view name) { return name.size() >= 2 && IsLetter(name[0]) && IsLetter(name[1]); }
+
+constexpr std::string_view kWanted = "a name that begins with two letters or _";
+
+/// The second character of names, where the control wants a letter there too (sinumerik-2.4).
+void CheckFirstCharacters(const Subject& subject, ir::ProgramId program, diag::Sink& sink) {
+  if (!subject.profile.names.first.Is(dialects::NameStart::kTwoLetters)) return;
+  const ir::Module& module = subject.module;
+  for (const ir::Variable& variable : module.variables.All()) {
+    const std::string_view name = module.View(variable.name);
+    if (variable.owner != program || BeginsWithTwo(name)) continue;
+    sink.Report(diag::Code::kExpectedText, subject.PlaceOf(variable), kWanted, name);
+  }
+  for (const ir::BlockId id : module.programs[program].blocks) {
+    const ir::Block& block = module.blocks[id];
+    if (!block.label.Valid() || BeginsWithTwo(module.View(block.label))) continue;
+    sink.ReportAs(diag::Severity::kWarning, diag::Code::kExpectedText, subject.PlaceOfLabel(id), kWanted,
+                  module.View(block.label));
+  }
+}
+
+}  // namespace
+
 // Names of variables are measured where they are declared; these two have no declaration of their own.
 void CheckNameLengths(const Subject& subject, ir::ProgramId program, diag::Sink& sink) {
   // What small controls without declared names read of a name is not sure enough to refuse a program by it.
   if (subject.profile.names.max_length.Or(0) == 0) return;
+  CheckFirstCharacters(subject, program, sink);
   const ir::Module& module = subject.module;
   const ir::Program& record = module.programs[program];
   const auto most_program = subject.profile.names.programs.Or(0);

@@ -15,6 +15,7 @@ void CheckPrograms(const Subject& subject, diag::Sink& sink) {
     CheckArcWords(subject, program, sink);
     CheckLoopCounters(subject, program, sink);
     CheckExactComparisons(subject, program, sink);
+    CheckEndlessJumps(subject, program, sink);
     CheckNesting(subject, program, sink);
     CheckLostDigits(subject, program, sink);
     CheckUnsetValues(subject, program, sink);

@@ -39,6 +39,8 @@ void CheckExactComparisons(const Subject& subject, ir::ProgramId program, diag::
 /// NC4014: a modal call that is still in force where the tool changes, or where a cycle would run at a retract.
 void CheckModalCalls(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
 
+/// NC4007: jumps back from which no way leads to an end, a stop or an alarm.
+void CheckEndlessJumps(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
 /// NC9003: brackets, loops and branches nested deeper than the control takes (profile: nesting).
 void CheckNesting(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
 /// NC9006: blocks with more characters than the control reads (profile: block.max-length). Needs the texts, so the

@@ -139,6 +139,9 @@ class Hints {
       return true;
     }
     if (Kind() == K::kComma) return Say("a name is missing in front of the comma");
+    const std::size_t behind = tokens_[at_].offset + tokens_[at_].length;
+    if (text.find('$') != std::string_view::npos || (behind < line_.size() && line_[behind] == '$'))
+      return Say("a name holds letters, digits and _; $ stands in front of system variables");
     return Say("a name begins with two letters, or with _ and a letter");
   }
 
@@ -149,6 +152,8 @@ class Hints {
     if (IsOperator(Kind())) return Say("a name holds letters, digits and _");
     if (Kind() == K::kNumber || Kind() == K::kText || Kind() == K::kBoolean)
       return Say("a start value stands behind =: {}={}", TextOf(at_ - 1), TextOf(at_));
+    if (TextOf(at_).starts_with('$'))
+      return Say("a name holds letters, digits and _; $ stands in front of system variables");
     return StartsValue(Kind()) && Kind() != K::kLeftParen && Say("a comma stands between two names");
   }
 

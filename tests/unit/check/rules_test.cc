@@ -113,7 +113,7 @@ TEST_CASE("programs without an end") {
   CHECK(Mill("IF R1>1 GOTOF AB\nM30\nAB: G0 X1\n") == "NC4005 3");
   CHECK(Mill("G0 X1\nM2\n").empty());
   CHECK(Sub("PROC SUB1\nG0 X1\nRET\n").empty());
-  CHECK(Mill("AB: G0 X1\nGOTOB AB\n").empty());
+  CHECK(Mill("AB: G0 X1\nM0\nGOTOB AB\n").empty());
 }
 
 TEST_CASE("programs that call themselves for ever") {

@@ -69,6 +69,8 @@ class Allocation {
   [[nodiscard]] std::uint32_t RepeatCount(const AssignList& list, std::uint32_t all) const;
   bool WrittenBeforeRead(const analysis::Cfg& cfg, BlockId definition, VariableId variable);
   void LowerCalls(ProgramId program);
+  [[nodiscard]] bool MayReach(ProgramId callee, std::uint32_t space, std::uint32_t cell) const;
+  [[nodiscard]] bool IsOwn(ProgramId program, const Expr& actual, const Variable& parameter, ProgramId callee) const;
   void ReplaceNames(ProgramId program);
   ExprId CellOf(ExprId id);
 
@@ -104,6 +106,9 @@ class Allocation {
   std::set<std::uint32_t> pinned_common_;
   std::map<std::uint32_t, std::set<std::uint32_t>> used_cells_;  // SpaceId -> cells of the source
   std::set<std::uint32_t> indexed_spaces_;
+  std::map<std::uint32_t, std::set<std::uint64_t>> cells_of_;  // ProgramId -> source space, cell that it names
+  std::map<std::uint32_t, std::set<std::uint32_t>>
+      spaces_of_;  // ProgramId -> source spaces that it reaches by an index
   std::set<std::uint32_t> read_variables_;
   std::set<std::uint32_t> modal_;                             // ProgramId: called modally, and locals keep their values
   std::map<std::uint32_t, std::set<std::uint32_t>> written_;  // ProgramId -> variables that its blocks write
@@ -124,8 +129,14 @@ void Allocation::FindUses() {
   for (const ProgramId program : module_.programs.Ids()) {
     RewriteProgram(module_, program, [&](Module& module, ExprId id) {
       const Expr& expr = module.exprs[id];
-      if (expr.op == ExprOp::kCell) used_cells_[expr.a].insert(expr.b);
-      if (expr.op == ExprOp::kCellAt) indexed_spaces_.insert(expr.b);
+      if (expr.op == ExprOp::kCell) {
+        used_cells_[expr.a].insert(expr.b);
+        cells_of_[program.value].insert(std::uint64_t{expr.a} << 32U | expr.b);
+      }
+      if (expr.op == ExprOp::kCellAt) {
+        indexed_spaces_.insert(expr.b);
+        spaces_of_[program.value].insert(expr.b);
+      }
       if (expr.op == ExprOp::kVariable || expr.op == ExprOp::kElement) {
         read_variables_.insert(expr.a);
         const ProgramId owner = module.variables[VariableId{std::size_t{expr.a}}].owner;
@@ -617,6 +628,37 @@ void Allocation::LowerDefinitions(ProgramId program, const analysis::Cfg& cfg) {
   editor.Apply();
 }
 
+/// Some program that runs below the call may name the cell.
+bool Allocation::MayReach(ProgramId callee, std::uint32_t space, std::uint32_t cell) const {
+  std::set<std::uint32_t> seen;
+  std::vector<ProgramId> work{callee};
+  while (!work.empty()) {
+    const ProgramId program = work.back();
+    work.pop_back();
+    if (!program.Valid()) return true;
+    if (!seen.insert(program.value).second) continue;
+    const auto cells = cells_of_.find(program.value);
+    if (cells != cells_of_.end() && cells->second.contains(std::uint64_t{space} << 32U | cell)) return true;
+    const auto spaces = spaces_of_.find(program.value);
+    if (spaces != spaces_of_.end() && spaces->second.contains(space)) return true;
+    for (const analysis::CallSite& site : calls_.SitesOf(program)) work.push_back(site.callee);
+  }
+  return false;
+}
+
+/// What the call gives by reference is of the parameter's type, and nothing below the call names it.
+bool Allocation::IsOwn(ProgramId program, const Expr& actual, const Variable& parameter, ProgramId callee) const {
+  if (actual.op != ExprOp::kCell) {
+    const Variable& variable = module_.variables[VariableId{std::size_t{actual.a}}];
+    return variable.owner == program && !seen_elsewhere_.contains(actual.a) && variable.type == parameter.type;
+  }
+  // A modal call runs its program behind blocks of any other.
+  for (const analysis::CallSite& site : calls_.AllSites()) {
+    if (site.modal && MayReach(site.callee, actual.a, actual.b)) return false;
+  }
+  return module_.spaces[SpaceId{std::size_t{actual.a}}].type == parameter.type && !MayReach(callee, actual.a, actual.b);
+}
+
 void Allocation::LowerCalls(ProgramId program) {
   ProgramEditor editor(module_, program, "names_to_numbers");
   for (const BlockId id : module_.programs[program].blocks) {
@@ -656,29 +698,37 @@ void Allocation::LowerCalls(ProgramId program) {
           continue;
         }
         const Expr* actual = given.Valid() ? &module_.exprs[given] : nullptr;
-        const bool whole = actual != nullptr && (actual->op == ExprOp::kVariable || actual->op == ExprOp::kCell);
+        const bool variable = actual != nullptr && actual->op == ExprOp::kVariable;
+        // An element by numbers and a cell are one cell here.
+        Home source;
+        bool whole = variable;
+        if (actual != nullptr && (actual->op == ExprOp::kElement || actual->op == ExprOp::kCell)) {
+          const Expr place = module_.exprs[CellOf(given)];
+          actual = &module_.exprs[given];
+          whole = place.op == ExprOp::kCell && SpaceId{std::size_t{place.a}} == space_;
+          source.cell = place.b;
+        }
         if (!whole || word.op == WordOp::kModalCall) {
           Refuse(module_.RangeOf(block, word), fmt::format("argument {} by reference", module_.View(parameter.name)));
           continue;
         }
-        const std::uint32_t key = actual->op == ExprOp::kVariable ? actual->a : actual->b | 0x80000000U;
         // Copied in and out: nothing that the callee reaches another way, and no value that changes its type.
-        const bool own = actual->op == ExprOp::kVariable && module_.variables[VariableId{actual->a}].owner == program;
-        const bool shared = !own || seen_elsewhere_.contains(actual->a) ||
-                            module_.variables[VariableId{actual->a}].type != parameter.type;
-        if (!references.insert(key).second || shared) {
+        const std::uint32_t count = CellCount(parameter);
+        if (variable) source = homes_[actual->a];
+        bool apart = IsOwn(program, *actual, parameter, call.program);
+        for (std::uint32_t cell = 0; cell < count; ++cell)
+          apart = references.insert(source.cell + cell).second && apart;
+        if (!apart) {
           Refuse(module_.RangeOf(block, word),
                  fmt::format("argument {} by reference to what the callee may reach another way",
                              module_.View(parameter.name)));
           continue;
         }
-        const std::uint32_t count = CellCount(parameter);
-        if (CellCount(module_.variables[VariableId{std::size_t{actual->a}}]) != count) {
+        if ((variable ? CellCount(module_.variables[VariableId{std::size_t{actual->a}}]) : 1) != count) {
           Refuse(module_.RangeOf(block, word),
                  fmt::format("argument {} by reference of another size", module_.View(parameter.name)));
           continue;
         }
-        const Home source = homes_[actual->a];
         for (std::uint32_t cell = 0; cell < count; ++cell) {
           const auto copy = [&](std::uint32_t to, std::uint32_t from) {
             Word made;

@@ -272,7 +272,10 @@ void DimensionPass::WriteDistanceModes() {
     }
     told = false;
     const analysis::BlockWays ways = next != nullptr ? analysis::WaysOf(module_, *next) : analysis::BlockWays{};
-    const bool takes = ways.moves && !ways.calls && !ways.branches && !ways.conditional;
+    // A word of the mode would mean something to words that name no end of a move (a point on the way to the
+    // reference).
+    const bool takes =
+        ways.moves && !ways.calls && !ways.branches && !ways.conditional && !HasOp(module_, *next, MeansNoMove);
     if (takes) {
       prepend(blocks[i + 1], mode(Distance::kAbsolute));
       continue;

@@ -32,6 +32,7 @@
 #include "backends/fanuc/word_digits.h"
 #include "dialects/fanuc/words.h"
 #include "dialects/machine.h"
+#include "ir/enum_names.h"
 #include "ir/transform/absolute_dimensions.h"
 #include "ir/transform/feeds_to_numbers.h"
 #include "ir/transform/fixed_indices.h"
@@ -235,6 +236,8 @@ bool CheckLegal(const RaiseInput& input, Translation& out, diag::Sink& sink) {
           }
         }
         const auto named = [&] {
+          if (word.op == WordOp::kMotion && word.spelling == 0)
+            return fmt::format("the motion mode {}", ir::NameOf(static_cast<ir::Motion>(word.index)));
           return word.spelling != 0 ? std::string(module.View(module.spellings[word.spelling].text))
                                     : std::string(ir::NameOf(word.op));
         };

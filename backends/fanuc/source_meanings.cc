@@ -69,6 +69,9 @@ bool RefuseRepeatedCalls(const RaiseInput& input, const ir::Module& module, diag
         if (word.op != ir::WordOp::kCall || !word.Extra<ir::CallId>().Valid()) continue;
         const ir::Call& call = module.calls[word.Extra<ir::CallId>()];
         if (!call.passes.Valid() || !call.program.Valid() || !writes_arguments(call.program)) continue;
+        // P1 repeats nothing.
+        const ir::Expr& passes = module.exprs[call.passes];
+        if (passes.op == ir::ExprOp::kLiteral && passes.number == 1) continue;
         sink.Report(diag::Code::kNotExpressible, module.RangeOf(module.blocks[block], word),
                     "a repeated call of a program that changes its own arguments", input.profile->name)
             .help = "the second pass would find them changed: copy them to variables of the program";

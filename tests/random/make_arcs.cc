@@ -174,11 +174,11 @@ void Maker::CenterWord(ir::BlockBuilder& block, std::uint8_t axis, const Made& o
   block.Last().mode = ValueMode::kStep;
 }
 
-Maker::Made Maker::ArcLength(bool fives) {
+Maker::Made Maker::ArcLength(bool fives, bool computed) {
   // The radius is this length, or five of it.
   const double unit = IsInch() ? 0.04 : 1;
   const Interval range = fives ? Interval{0.2 * unit, 4 * unit, false} : Interval{0.5 * unit, 20 * unit, false};
-  return random_.Percent(55) ? Literal(range) : NumberIn(range, 2);
+  return random_.Percent(55) || !computed ? Literal(range) : NumberIn(range, 2);
 }
 
 Maker::Arc Maker::DrawArc(bool full_too) {
@@ -269,7 +269,7 @@ void Maker::MakeArcAngle() {
   if (!StartArc(flat)) return MakeLinear();
   Arc arc = DrawArc(false);
   arc.fives = false;
-  arc.length = ArcLength(false);
+  arc.length = ArcLength(false, MayCompute());
   const std::uint32_t from = random_.Below(4);
   const std::uint32_t quarters = 1 + random_.Below(3);
   arc.start = {kQuarters[from].x, kQuarters[from].y};
@@ -290,7 +290,8 @@ void Maker::MakeArcAngle() {
       if (arc.start[i] != 0) CenterWord(block, axes[i], Scaled(-arc.start[i], arc.length));
       AddDrift(axes[i], 2 * arc.length.range.high * UnitFactor());
     }
-    Word(block, WordOp::kOpeningAngle, NumberIn({10, 350, false}, 1).id);
+    const Interval angle{10, 350, false};
+    Word(block, WordOp::kOpeningAngle, (MayCompute() ? NumberIn(angle, 1) : Literal(angle)).id);
   }
   NeedFeed(block);
   Emit(block);
@@ -302,7 +303,7 @@ void Maker::MakeArcVia() {
   if (TransverseAxis() != 0xFF || !StartArc(flat)) return MakeLinear();
   Arc arc = DrawArc(false);
   arc.fives = false;
-  arc.length = ArcLength(false);
+  arc.length = ArcLength(false, MayCompute());
   const std::uint32_t from = random_.Below(4);
   const std::uint32_t via = (from + 1 + random_.Below(3)) % 4;
   std::uint32_t to = (via + 1 + random_.Below(3)) % 4;

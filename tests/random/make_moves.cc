@@ -250,7 +250,8 @@ void Maker::MakeChamfer() {
     if (i == 0) {
       static constexpr ir::ChamferKind kKinds[] = {ir::ChamferKind::kLength, ir::ChamferKind::kLeg,
                                                    ir::ChamferKind::kRound};
-      Word(block, WordOp::kChamfer, NumberIn({0.1, IsInch() ? 0.4 : 1.5, false}, 1).id,
+      const Interval size{0.1, IsInch() ? 0.4 : 1.5, false};
+      Word(block, WordOp::kChamfer, (MayCompute() ? NumberIn(size, 1) : Literal(size)).id,
            static_cast<std::uint8_t>(random_.Pick(kKinds)));
     }
     if (per_block_feed) AddFeed(block);
@@ -369,7 +370,8 @@ void Maker::MakePolar() {
     // The first point names both words: an angle is a step only from an angle before it.
     Word(block, WordOp::kPolarAngle, NumberIn(BoundsOf(Range::kAngle), 1).id);
     block.Last().mode = i > 0 && random_.Percent(30) ? ValueMode::kIncremental : ValueMode::kAbsolute;
-    Word(block, WordOp::kPolarRadius, NumberIn({0.5, most, false}, 1).id);
+    const Interval radius{0.5, most, false};
+    Word(block, WordOp::kPolarRadius, (MayCompute() ? NumberIn(radius, 1) : Literal(radius)).id);
     if (random_.Percent(25) && HasAxis(flat.normal)) AxisWord(block, flat.normal, true, 1);
     if (!rapid) NeedFeed(block);
     Emit(block);

@@ -404,7 +404,7 @@ void Maker::MakeSubprogram(std::uint32_t index) {
 
 void Maker::WriteEnd(bool main) {
   // Some machines end with G97, which freezes a surface speed: where X is not known there is none.
-  if (main && !Has(Feature::kComputedTool) && known_.modes.speed_mode != ir::SpeedMode::kRpm) {
+  if (main && !Has(Feature::kSurfaceSpeedAtEnd) && known_.modes.speed_mode != ir::SpeedMode::kRpm) {
     ir::BlockBuilder rpm = NewBlock();
     SetRpm(rpm);
     Emit(rpm);

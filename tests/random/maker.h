@@ -108,6 +108,10 @@ class Maker {
 
   // --- chances
   [[nodiscard]] bool Draw(Feature feature) { return random_.Percent(options_.weights.Of(feature)); }
+  /// A number of a shape may be computed. What is always so draws nothing.
+  [[nodiscard]] bool MayCompute() {
+    return options_.weights.Of(Feature::kComputedShape) >= 100 || Draw(Feature::kComputedShape);
+  }
   [[nodiscard]] bool Has(Feature feature) const { return options_.weights.Of(feature) != 0; }
   [[nodiscard]] bool IsSinumerik() const { return options_.flavour == Flavour::kSinumerik; }
 
@@ -279,7 +283,7 @@ class Maker {
   void MakeArcTangent();
   bool StartArc(Flat& flat);
   Made Scaled(double factor, const Made& length);
-  Made ArcLength(bool fives);
+  Made ArcLength(bool fives, bool computed = true);
   Arc DrawArc(bool full_too);
   void ArcEnd(ir::BlockBuilder& block, const Flat& flat, const Arc& arc);
   void CenterWord(ir::BlockBuilder& block, std::uint8_t axis, const Made& offset);

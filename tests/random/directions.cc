@@ -10,6 +10,7 @@ namespace {
 //   edge-before-change: D before M6 names the edge of the old tool;
 //   dwell-revolutions, tap, spindle-position, aux-h, fixed-point: no word with the same meaning;
 //   block-range, arc-tangent, feed-once: one word of the source that stands for others;
+//   chamfer: the points of a corner carry the rounding of the size and of the side: more than one word's;
 //   computed-axis, text-functions, assign-list, computed-target: variables hold numbers only;
 //   system-variables, shown-alarm, inert: not among the listed losses (contracts section 3);
 //   surface-speed-at-end: the end of some machines freezes it, and its diameter may not be known.
@@ -17,17 +18,17 @@ namespace {
 #define NCPORT_NO_FANUC \
   "computed-radius=0,blind-step=0,edge-before-change=0," \
   "dwell-revolutions=0,tap=0,spindle-position=0,aux-h=0,fixed-point=0," \
-  "block-range=0,arc-tangent=0,feed-once=0," \
+  "block-range=0,arc-tangent=0,feed-once=0,chamfer=0," \
   "computed-axis=0,text-functions=0,assign-list=0,computed-target=0," \
   "system-variables=0,shown-alarm=0,inert=0,surface-speed-at-end=0,"
 // Often without one value there: each has a share of the tenth that may be refused.
 #define NCPORT_SELDOM_FANUC \
   "frame=1,tool=1,units=1,feed-mode=1,save-modes=3,fractional-speed=3,feed-across-thread=5,thread-variable=1," \
-  "repeat-part=1,passes=2,modal-call=1,computed-tool=0,frame-turns=5,turns=3,arc-via=1,polar=1,chamfer=1," \
-  "arc-angle=1,reference=1,reference-parameter=5,computed-shape=3,open-speed-mode=10,skip-level=3"
+  "repeat-part=1,passes=2,modal-call=1,computed-tool=0,frame-turns=1,turns=3,arc-via=1,polar=1," \
+  "arc-angle=1,reference=1,reference-parameter=5,computed-shape=0,open-speed-mode=2,skip-level=3"
 // clang-format on
 // A tool fixes the plane, since its length lies along Z (first line); other planes come without tools (second line).
-constexpr std::string_view kWithTools = NCPORT_NO_FANUC NCPORT_SELDOM_FANUC ",plane=0,frame=0";
+constexpr std::string_view kWithTools = NCPORT_NO_FANUC NCPORT_SELDOM_FANUC ",plane=0,frame=0,modal-call=0";
 constexpr std::string_view kWithoutTools = NCPORT_NO_FANUC NCPORT_SELDOM_FANUC ",tool=0,cutter-comp=0";
 #undef NCPORT_SELDOM_FANUC
 // What has no way back: what a computed number or a unit stands for must be known there, and bits, indices and blocks

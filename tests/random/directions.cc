@@ -23,13 +23,14 @@ namespace {
   "system-variables=0,shown-alarm=0,inert=0,surface-speed-at-end=0,"
 // Often without one value there: each has a share of the tenth that may be refused.
 #define NCPORT_SELDOM_FANUC \
-  "frame=1,tool=1,units=1,feed-mode=1,save-modes=3,fractional-speed=3,feed-across-thread=5,thread-variable=1," \
-  "repeat-part=1,passes=2,modal-call=1,computed-tool=0,frame-turns=1,turns=3,arc-via=1,polar=1," \
+  "frame=1,tool=1,units=1,feed-mode=1,save-modes=3,fractional-speed=1,feed-across-thread=2,thread-variable=1," \
+  "repeat-part=1,passes=1,modal-call=1,computed-tool=0,frame-turns=1,turns=3,arc-via=1,polar=1," \
   "arc-angle=1,reference=1,reference-parameter=5,computed-shape=0,open-speed-mode=2,skip-level=3"
 // clang-format on
 // A tool fixes the plane, since its length lies along Z (first line); other planes come without tools (second line).
 constexpr std::string_view kWithTools = NCPORT_NO_FANUC NCPORT_SELDOM_FANUC ",plane=0,frame=0,modal-call=0";
-constexpr std::string_view kWithoutTools = NCPORT_NO_FANUC NCPORT_SELDOM_FANUC ",tool=0,cutter-comp=0";
+constexpr std::string_view kWithoutTools =
+    NCPORT_NO_FANUC NCPORT_SELDOM_FANUC ",tool=0,cutter-comp=0,value-modes=10,reference=0";
 #undef NCPORT_SELDOM_FANUC
 // What has no way back: what a computed number or a unit stands for must be known there, and bits, indices and blocks
 // that may be skipped ask for values that are never empty. Labels that jumps skip to and conditions that are always

@@ -24,7 +24,7 @@ namespace {
 // Often without one value there: each has a share of the tenth that may be refused.
 #define NCPORT_SELDOM_FANUC \
   "frame=1,tool=1,units=1,feed-mode=1,save-modes=3,fractional-speed=1,feed-across-thread=2,thread-variable=1," \
-  "repeat-part=1,passes=1,modal-call=1,computed-tool=0,frame-turns=1,turns=3,arc-via=1,polar=1," \
+  "repeat-part=1,passes=1,modal-call=1,computed-tool=0,frame-turns=0,turns=1,arc-via=1,polar=1," \
   "arc-angle=1,reference=1,reference-parameter=5,computed-shape=0,open-speed-mode=2,skip-level=3"
 // clang-format on
 // A tool fixes the plane, since its length lies along Z (first line); other planes come without tools (second line).

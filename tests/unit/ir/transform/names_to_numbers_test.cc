@@ -188,10 +188,25 @@ TEST_CASE("references that alias, that a modal call gives, or that are no variab
       "  @m:11 : assign variable A = variable B\n";
   const std::string main = "program M main @m:0\n  var W real local\n  var V real local dims 2\n  @m:1 : ";
   Refused(main + "call name SUB calls SUB (0: variable W, 1: variable W)\n" + sub, "reach another way");
-  Refused(main + "call name SUB calls SUB (0: variable W, 1: R[1])\n" + sub, "reach another way");
-  Refused(main + "call name SUB calls SUB (0: variable W, 1: element V(0:int))\n" + sub, "by reference");
-  Refused(main + "call name SUB calls SUB (0: variable W)\n" + sub, "by reference");
-  Refused(main + "modal-call name SUB calls SUB (0: variable W, 1: variable V)\n" + sub, "by reference");
+  Refused(main + "call name SUB calls SUB (0: R[1], 1: R[1])\n" + sub, "reach another way");
+  Refused(main + "call name SUB calls SUB (0: element V(0:int), 1: element V(0:int))\n" + sub, "reach another way");
+  Refused(main + "call name SUB calls SUB (0: variable W, 1: element V(variable W))\n" + sub, "by reference");
+  // Below the call the cell has its own name too, or may have by an index.
+  Refused(main + "call name SUB calls SUB (0: variable W, 1: R[1])\n" + sub + "  @m:12 : axis X = R[1]\n",
+          "reach another way");
+  const Numbers indexed =
+      Run(main + "call name SUB calls SUB (0: variable W, 1: R[1])\n" + sub + "  @m:12 : axis X = cell-at R[R[3]]\n",
+          Config(), "space R 0..9 real kept all zero\n");
+  CHECK_FALSE(indexed.ok);
+  CHECK(indexed.messages.find("reach another way") != std::string::npos);
+}
+
+TEST_CASE("a cell and an element by reference that nothing below the call names are copied in and out") {
+  CHECK(Run("program M main @m:0\n  var V real local dims 2\n"
+            "  @m:1 : call name SUB calls SUB (0: R[1], 1: element V(0:int))\n"
+            "program SUB sub @m:10\n  param A real parameter ref\n  param B real parameter ref\n"
+            "  @m:11 : assign variable A = variable B\n")
+            .ok);
 }
 
 TEST_CASE("a program that calls itself shares no common cells with its own calls") {

@@ -66,6 +66,7 @@ struct Event {
   bool clockwise = false;               // kArc
   bool diameter_active = false;         // trace prints Xr
   bool per_revolution = false;          // kDwell in revolutions
+  bool inch = false;                    // of a motion: lengths of the block are inches, its words rounded as such
   bool full_circle = false;             // kArc that ends where it starts
   bool added = false;                   // from a block or word that a pass added
   bool tool_waits = false;              // kTool: it only stands ready until a tool change

@@ -16,6 +16,7 @@ using exec::EventKind;
 namespace {
 
 constexpr double kRelative = 1e-6;
+constexpr double kInchWord = 2.54;  // 0.0001 inch against 0.001 mm (fanuc-4.4)
 
 double WordErrorOf(const Precision& precision) {
   switch (precision.word_error) {
@@ -71,11 +72,11 @@ std::string AxisName(std::uint8_t axis) {
 }
 
 double Comparer::Allowed(const Event& a, const Event& b, std::uint8_t axis) const {
-  const auto side = [axis](const Precision& precision, const Event& event) {
-    const double error = WordErrorOf(precision);
+  const auto side = [axis](const Precision& precision, const Event& event, std::uint16_t inch) {
+    const double error = WordErrorOf(precision) * (!ir::IsRotary(axis) && (inch >> axis & 1U) != 0 ? kInchWord : 1);
     return precision.diameter_axis == axis && event.diameter_active ? error / 2 : error;
   };
-  return options_.tolerance + side(options_.source, a) + side(options_.target, b);
+  return options_.tolerance + side(options_.source, a, source_inch_) + side(options_.target, b, target_inch_);
 }
 
 void Comparer::CompareNumber(const Event& a, const Event& b, double x, double y, std::string_view what) {
@@ -102,6 +103,11 @@ void Comparer::NoteLonely(const Event& event, std::uint16_t axes, std::array<std
 }
 
 void Comparer::ComparePositions(const Event& a, const Event& b) {
+  const auto note_unit = [](std::uint16_t& inch, const Event& event) {
+    inch = static_cast<std::uint16_t>(event.inch ? inch | event.moved_axes : inch & ~event.moved_axes);
+  };
+  note_unit(source_inch_, a);
+  note_unit(target_inch_, b);
   const std::uint16_t both = a.known_axes & b.known_axes;
   common_axes_ = static_cast<std::uint16_t>(common_axes_ | both);
   // An axis that an added block moved stands elsewhere until the program names it: allowed for rapids only.
@@ -127,7 +133,8 @@ void Comparer::ComparePositions(const Event& a, const Event& b) {
 /// rounding does not explain, or a way longer than the tolerance of circles, is none of the words (contracts section
 /// 9).
 void Comparer::CompareCenters(const Event& a, const Event& b) {
-  const double words = WordErrorOf(options_.source) + WordErrorOf(options_.target);
+  const double words =
+      WordErrorOf(options_.source) * (a.inch ? kInchWord : 1) + WordErrorOf(options_.target) * (b.inch ? kInchWord : 1);
   const double allowed = options_.tolerance + 2 * words;
   const auto agree = [&](const exec::Point& x, const exec::Point& y) {
     return std::fabs(x.u - y.u) <= allowed && std::fabs(x.v - y.v) <= allowed;

@@ -71,6 +71,7 @@ class Comparer {
   std::array<std::optional<double>, ir::kMaxAxes> lonely_source_, lonely_target_;
   std::uint16_t lonely_source_moving_ = 0, lonely_target_moving_ = 0;
   std::uint16_t common_axes_ = 0;
+  std::uint16_t source_inch_ = 0, target_inch_ = 0;  // axes that stand where a block in inches sent them
 };
 
 }  // namespace ncport::prove

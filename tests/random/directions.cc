@@ -47,10 +47,9 @@ constexpr std::string_view kBackWithTools = NCPORT_NO_FANUC NCPORT_NO_WAY_BACK "
 constexpr std::string_view kBackWithoutTools = NCPORT_NO_FANUC NCPORT_NO_WAY_BACK ",tool=0,cutter-comp=0";
 #undef NCPORT_NO_WAY_BACK
 #undef NCPORT_NO_FANUC
-// The comparison takes the error of a word in mm where the source rounds it in inches; the others are refused so often
-// that they would hide what else happens: modal calls and repeated macro calls beside subprograms that share locals,
-// and changes of the spindle mode, which choose the feed's unit there (sinumerik-8.1).
-constexpr std::string_view kGenerated = "units=0,surface-speed=0,modal-call=0,passes=0";
+// These are refused so often that they would hide what else happens: modal calls and repeated macro calls beside
+// subprograms that share locals, and changes of the spindle mode, which choose the feed's unit there (sinumerik-8.1).
+constexpr std::string_view kGenerated = "surface-speed=0,modal-call=0,passes=0";
 // What literal blocks have no word for.
 constexpr std::string_view kNotFlat =
     "tap=0,machine-coords=0,reference=0,spindle-position=0,aux-h=0,thread-variable=0,thread-start=0,"

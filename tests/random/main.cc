@@ -109,6 +109,14 @@ std::string ShrinkAndShow(const Prepared& prepared, const Sample& sample, bool l
                      shown.artefact, dump.View());
 }
 
+/// More than a tenth; of few programs chance may bring a little more (three standard deviations).
+bool IsTooMuch(std::uint64_t refused, std::uint64_t checked) {
+  constexpr std::uint64_t kFew = 500;
+  const auto all = static_cast<double>(checked);
+  const double chance = checked < kFew ? 3 * std::sqrt(all * 0.1 * 0.9) : 0;
+  return static_cast<double>(refused) > 0.1 * all + chance;
+}
+
 int RunAll(const Arguments& arguments) {
   std::vector<Prepared> prepared;
   for (const Direction& direction : Directions()) {
@@ -195,7 +203,7 @@ int RunAll(const Arguments& arguments) {
                tally.no_program);
     passed += tally.agrees + tally.refused;
     failed += tally.fails;
-    if (tally.refused * 10 > tally.Checked() && tally.Checked() >= 20) {
+    if (IsTooMuch(tally.refused, tally.Checked())) {
       fmt::print("{}: more than a tenth is refused\n", next.direction->name);
       ++failed;
     }

@@ -144,6 +144,34 @@ TEST_CASE("the allowance is half an increment where a control rounds, halved on 
   CHECK(Agree(a, radius, options));
 }
 
+TEST_CASE("a word in inches is off by more, for as long as its axis stands there") {
+  CompareOptions options;
+  options.source.word_error = ir::WordError::kRound;
+  options.source.increment = 0.001;
+  // 1/64 inch is X0.396875, rounded to 0.0156 inch X0.39624.
+  const auto run = [](Trace& trace, double x, bool inch) {
+    for (const double z : {1.0, 2.0}) {
+      Event event;
+      event.kind = EventKind::kLine;
+      event.position[0] = x;
+      event.position[2] = z;
+      event.known_axes = kX | kZ;
+      event.moved_axes = z == 1 ? kX | kZ : kZ;
+      event.inch = inch && z == 1;
+      trace.Put(event);
+    }
+    trace.End();
+  };
+  Trace rounded, exact, millimetres, far;
+  run(rounded, 0.39624, true);
+  run(exact, 0.396875, true);
+  run(millimetres, 0.39624, false);
+  run(far, 0.3977, true);
+  CHECK(Agree(rounded, exact, options));
+  CHECK_FALSE(Agree(millimetres, exact, options));
+  CHECK_FALSE(Agree(rounded, far, options));
+}
+
 TEST_CASE("a centre that one control moves along the chord is compared with the other one moved likewise") {
   CompareOptions options;
   options.source.word_error = ir::WordError::kRound;

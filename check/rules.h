@@ -68,13 +68,13 @@ void CheckFeed(const Subject& subject, diag::Sink& sink);
 void CheckEmptyValues(const Subject& subject, diag::Sink& sink);
 /// NC9003: calls from a main program that are nested deeper than the control takes (profile: nesting.call).
 void CheckCallDepth(const Subject& subject, diag::Sink& sink);
-/// NC5003: a feed move on no way to which a spindle was started or got a speed, in a set that starts one; also with a new
-/// tool behind a stop.
+/// NC5003: a feed move on no way to which a spindle was started or got a speed, in a set that starts one; also with a
+/// new tool behind a stop.
 void CheckSpindle(const Subject& subject, diag::Sink& sink);
 /// NC5002: a feed move whose last feed, on every way, is of the other kind, where a change of the kind drops the feed.
 void CheckFeedKind(const Subject& subject, diag::Sink& sink);
-/// NC5003: a feed move behind a new speed with which nothing starts the spindle, or behind a start for which no way sets
-/// a speed.
+/// NC5003: a feed move behind a new speed with which nothing starts the spindle, or behind a start for which no way
+/// sets a speed.
 void CheckSpindleSpeed(const Subject& subject, diag::Sink& sink);
 
 }  // namespace ncport::check

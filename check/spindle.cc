@@ -66,7 +66,7 @@ class SpindleFlow {
           if (state == kStopped) state = kStand;
           break;
         case WordOp::kSpeed:  // a speed that nothing starts is told by CheckSpindleSpeed
-        case WordOp::kAux:  // the builder's: M13 starts spindle and coolant
+        case WordOp::kAux:    // the builder's: M13 starts spindle and coolant
         case WordOp::kComputedM:
         case WordOp::kVerbatim:
           state = kEither;

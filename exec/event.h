@@ -79,15 +79,16 @@ struct Event {
   std::uint16_t moved_axes = 0;         // axes that this block names
   std::uint32_t turns = 0;              // kArc: additional full turns
   std::uint32_t number = 0;             // tool, offset, M function; work offset number
-  std::uint32_t extension = 0;          // work offset G54.1 P; of several reference points; decimals of a tool number, as hundredths
-  double position[ir::kMaxAxes] = {};   // end point; kReference: unused
-  double from[ir::kMaxAxes] = {};       // start point, where known
-  double center[2] = {};                // in the axis order of the plane
-  double radius = 0;                    // kArc
-  double value = 0;                     // dwell, speed, lead, start angle see below
-  double feed = 0;                      // kLine, kArc, kProbe
-  double start_angle = 0;               // kThread
-  double change = 0;                    // kThread: change of lead per revolution
+  std::uint32_t extension =
+      0;  // work offset G54.1 P; of several reference points; decimals of a tool number, as hundredths
+  double position[ir::kMaxAxes] = {};  // end point; kReference: unused
+  double from[ir::kMaxAxes] = {};      // start point, where known
+  double center[2] = {};               // in the axis order of the plane
+  double radius = 0;                   // kArc
+  double value = 0;                    // dwell, speed, lead, start angle see below
+  double feed = 0;                     // kLine, kArc, kProbe
+  double start_angle = 0;              // kThread
+  double change = 0;                   // kThread: change of lead per revolution
   std::string_view text;  // message, print, alarm text, tool name, variable name; valid during the call only
   std::string_view code;  // alarm code; kSetVariable: the value as text
   ir::AlarmClass alarm = ir::AlarmClass::kOther;

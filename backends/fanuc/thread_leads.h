@@ -6,9 +6,9 @@
 
 namespace ncport::backends::fanuc {
 
-/// Lead words become F, and the F of a changing lead K, which is below 0 where it gets shorter; not where the source has
-/// its leads in F already. A feed move behind a thread that relies on the F before it names that again, where it is one
-/// number on every way; else it is refused. Run after AbsoluteDimensions.
+/// Lead words become F, and the F of a changing lead K, which is below 0 where it gets shorter; not where the source
+/// has its leads in F already. A feed move behind a thread that relies on the F before it names that again, where it is
+/// one number on every way; else it is refused. Run after AbsoluteDimensions.
 bool ThreadLeads(const RaiseInput& input, Translation& out, diag::Sink& sink);
 
 }  // namespace ncport::backends::fanuc

@@ -258,8 +258,8 @@ void StartAnalysis::ThroughUnknown(const Call& call, ValueTransfer& transfer) {
   transfer.Forget(call.form == CallForm::kBlockRange, !call.new_level);
 }
 
-/// The first run begins with what the call gives. What it leaves in its parameters is what the next one begins with: where
-/// that is more, it can be anything.
+/// The first run begins with what the call gives. What it leaves in its parameters is what the next one begins with:
+/// where that is more, it can be anything.
 void StartAnalysis::KeepParameters(Context& context, const std::vector<VariableId>& kept) {
   if (!context.exit.reached) return;
   ValueState entry = context.entry;

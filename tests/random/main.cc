@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include <charconv>
+#include <cmath>
 #include <cstdlib>
 #include <map>
 #include <set>

@@ -315,8 +315,7 @@ TEST_CASE_FIXTURE(RunFixture, "modal state stays as the subprogram left it, or i
   CHECK(run(false) == "RAPID X10\nRAPID X11\nPATH CONTINUOUS\nRAPID X16\nLINE X22 F5\nEND\n");
   CHECK(run(true) == "RAPID X10\nRAPID X11\nPATH CONTINUOUS\nPATH EXACT\nRAPID X5\nLINE X6 F5\nEND\n");
   // A mode that no word ever named has no line.
-  CHECK(run(true, ir::PathMode::kUnknown) ==
-        "RAPID X10\nRAPID X11\nPATH CONTINUOUS\nRAPID X5\nLINE X6 F5\nEND\n");
+  CHECK(run(true, ir::PathMode::kUnknown) == "RAPID X10\nRAPID X11\nPATH CONTINUOUS\nRAPID X5\nLINE X6 F5\nEND\n");
 }
 
 TEST_CASE_FIXTURE(

@@ -329,12 +329,17 @@ class Pass {
   /// The lead is F there, the centre word of the axis here (fanuc-8.1, sinumerik-8.4).
   void ThreadLead(const Block& block, const ir::ModalState& at, std::vector<Word>& words) {
     if (!input_.source_machine->thread_lead_from_feed) return;
-    if (at.motion == ir::Motion::kThreadIncreasing) {
+    // No way need lead here: a word of the block itself counts all the same.
+    ir::Motion motion = at.motion;
+    for (const Word& word : words) {
+      if (word.op == WordOp::kMotion) motion = static_cast<ir::Motion>(word.index);
+    }
+    if (motion == ir::Motion::kThreadIncreasing) {
       for (const Word& word : words) {
         if (word.op == WordOp::kAxis) return Refuse(block, word, "a thread with a changing lead");
       }
     }
-    if (at.motion != ir::Motion::kThread) return;
+    if (motion != ir::Motion::kThread) return;
     const Word* axis = nullptr;
     const Word* feed = nullptr;
     for (const Word& word : words) {

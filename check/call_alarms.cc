@@ -68,7 +68,8 @@ class CallAlarms final : public ValueRule {
     for (const CallContext* callee = &context; EndsInAlarm(*callee); callee = callee->caller) {
       const bool library = input_.module.programs[callee->caller->program].library;
       if (library || calls_left_.contains(callee->call.value)) continue;
-      if (const SourceRange at = PlaceOf(*callee); at.Valid()) blamed_.try_emplace(callee->call.value, alarm, at);
+      if (const SourceRange at = PlaceOf(*callee); at.Valid())
+        blamed_.try_emplace(callee->call.value, Blamed{alarm, at});
       return;
     }
   }

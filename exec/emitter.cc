@@ -16,6 +16,7 @@ Event& Emitter::Begin(EventKind kind) {
   event_.per_revolution = false;
   event_.tool_waits = false;
   event_.tool_change = false;
+  event_.one_block = false;
   event_.text = {};
   event_.code = {};
   event_.block = session_.block;

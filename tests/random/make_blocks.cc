@@ -49,7 +49,10 @@ ir::BlockBuilder Maker::NewMark() {
 
 void Maker::Emit(ir::BlockBuilder& block, bool may_skip) {
   if (Draw(Feature::kComment)) block.Comment(CommentText());
-  if (may_skip && !labelled_ && Draw(Feature::kSkipLevel)) {
+  // A thread with a changing lead left in force would take the next F for its change.
+  const ir::Motion motion = before_block_.modes.motion;
+  const bool changes_lead = motion == ir::Motion::kThreadIncreasing || motion == ir::Motion::kThreadDecreasing;
+  if (may_skip && !labelled_ && !changes_lead && Draw(Feature::kSkipLevel)) {
     block.Skip(static_cast<std::uint8_t>(random_.Below(3) + (IsSinumerik() ? 0 : 1)));
     known_.Join(before_block_);
     if (known_.placed != 0 && !Has(Feature::kBlindStep)) known_.placed = 0;

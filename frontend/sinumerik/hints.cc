@@ -26,10 +26,11 @@ class Hints {
 
   void Run() {
     // Each looks for one kind of slip; the first that fits has the word.
-    (void)(GroupIndex() || TornNumber() || LettersInNumber() || NewName() || TornName() || MissingType() ||
-           ForeignOperator() || Dwell() || Incomplete() || ForeignSign() || Comparison() || NoFunction() ||
-           NoBrackets() || LooseCell() || NoOperator() || Closer() || Gap() || SecondSign() || MissingValue() ||
-           ForeignName() || TornWord() || ColonOfLabel() || Statement() || InnerWord() || CommentMark());
+    (void)(GroupIndex() || TornNumber() || LettersInNumber() || LettersBehindSign() || JumpWithoutBlank() ||
+           NewName() || TornName() || MissingType() || ForeignOperator() || Dwell() || Incomplete() || ForeignSign() ||
+           Comparison() || NoFunction() || NoBrackets() || LooseCell() || NoOperator() || Closer() || Gap() ||
+           SecondSign() || MissingValue() || ForeignName() || TornWord() || ColonOfLabel() || Statement() ||
+           InnerWord() || CommentMark());
     if (!help_.empty()) error_.help = help_.c_str();
   }
 
@@ -125,6 +126,36 @@ class Hints {
     std::size_t token = 0;
     while (token < tokens_.size() && tokens_[token].offset != offset) ++token;
     return token;
+  }
+
+  // `Z-l5`, `R1=-I0`: a letter for the first digit behind a sign begins a word of its own.
+  bool LettersBehindSign() {
+    std::size_t letters = at_;
+    if (Kind() == K::kMinus || Kind() == K::kPlus) ++letters;
+    if (letters == 0 || letters >= tokens_.size()) return false;
+    const Token& sign = tokens_[letters - 1];
+    const K kind = KindAt(letters - 1);
+    const std::string_view text = TextOf(letters);
+    if ((kind != K::kMinus && kind != K::kPlus) || sign.End() != tokens_[letters].offset || !LooksLikeNumber(text) ||
+        std::all_of(text.begin(), text.end(), IsDigit))
+      return false;
+    std::size_t first = letters - 1;
+    const K before = first == 0 ? K::kNone : KindAt(first - 1);
+    if ((before == K::kAxis || before == K::kAddress) && tokens_[first - 1].End() == sign.offset) --first;
+    const std::string_view head = line_.substr(tokens_[first].offset, sign.End() - tokens_[first].offset);
+    error_ = {.code = Code::kBadNumber,
+              .begin = tokens_[first].offset,
+              .length = tokens_[letters].End() - tokens_[first].offset};
+    return Say("did you mean {}{}?", head, AsDigits(text));
+  }
+
+  // `IF R1<R2 GOTOFREADY`: the jump word and its label run into one name.
+  bool JumpWithoutBlank() {
+    if (Kind() != K::kName || !IsValue(Before())) return false;
+    const std::string split = AsJumpAndLabel(TextOf(at_));
+    if (split.empty()) return false;
+    Put(Code::kUnknownWord, at_);
+    return Say("a blank is missing: {}", split);
   }
 
   // A word of the language, or a number, where a new name stands.
@@ -315,6 +346,12 @@ class Hints {
     }
     if (InCall() && IsValue(Before()) && StartsValue(Kind()) && error_.code == Code::kExpectedText)
       return Say("a comma is missing between {} and {}", TextOf(at_ - 1), TextOf(at_));
+    if (Kind() == K::kFunction && (Before() == K::kNumber || Before() == K::kCell || Before() == K::kRightParen))
+      return Say("an operator is missing between {} and {}", TextOf(at_ - 1), TextOf(at_));
+    // `"PART "<<R5" OF "`: two parts of a text.
+    const bool texts = Holds(K::kMessage) || Holds(K::kConcat);
+    if (texts && ((Kind() == K::kText && IsValue(Before())) || (Before() == K::kText && StartsValue(Kind()))))
+      return Say("<< is missing between {} and {}", TextOf(at_ - 1), TextOf(at_));
     const bool number = Before() == K::kNumber || Before() == K::kAxisValue || Before() == K::kAddressValue;
     return Kind() == K::kNumber && number && error_.code == Code::kUnexpectedText &&
            tokens_[at_ - 1].End() < tokens_[at_].offset &&
@@ -700,6 +737,19 @@ void ExplainWord(std::string_view line, LineError& error, std::string& help) {
                          text.substr(0, quote + 1));
   } else if (error.code == Code::kUnknownCharacter && c == '^') {
     help = "there is no sign for powers: POT(..) is the square";
+  } else if (error.code == Code::kUnknownAddress && c == 'O' && error.begin > 0 &&
+             (line[error.begin - 1] == '-' || line[error.begin - 1] == '+')) {
+    // `Z-O5`: the letter O behind a sign.
+    const std::size_t begin = error.begin > 1 && IsLetter(line[error.begin - 2]) ? error.begin - 2 : error.begin - 1;
+    std::size_t end = error.begin;
+    while (end < line.size() && (IsDigit(line[end]) || line[end] == '.' || Upper(line[end]) == 'O')) ++end;
+    std::string word(line.substr(begin, end - begin));
+    std::replace(word.begin() + 1, word.end(), 'O', '0');
+    std::replace(word.begin() + 1, word.end(), 'o', '0');
+    error = {.code = Code::kBadNumber,
+             .begin = static_cast<std::uint32_t>(begin),
+             .length = static_cast<std::uint32_t>(end - begin)};
+    help = fmt::format("did you mean {}?", word);
   } else if (error.code == Code::kUnknownAddress && c == 'O') {
     help = "the letter O; is the digit 0 meant?";
   } else if (error.code == Code::kUnknownCharacter && c == '!' && behind.starts_with('=')) {

@@ -283,6 +283,8 @@ void Resolver::UnknownProgram(std::string_view name, const SourceRange& at) {
     finding.help = "an address of several letters has its value behind =: " + whole;
   } else if (const std::string blank = AsWordAndAxis(name); !blank.empty()) {
     finding.help = "a blank is missing: " + blank;
+  } else if (const std::string jump = AsJumpAndLabel(name); !jump.empty()) {
+    finding.help = "a blank is missing: " + jump;
   } else if (const std::string_view word = NearStatementWord(name); !word.empty()) {
     finding.help = "did you mean " + std::string(word) + "?";
   } else {

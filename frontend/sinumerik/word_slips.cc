@@ -200,4 +200,12 @@ std::string AsWordAndAxis(std::string_view word) {
   return {};
 }
 
+std::string AsJumpAndLabel(std::string_view word) {
+  for (const std::string_view jump : {"GOTOF", "GOTOB", "GOTOC", "GOTO"}) {
+    if (word.size() < jump.size() + 2 || !IsWord(word.substr(0, jump.size()), jump)) continue;
+    return std::string(word.substr(0, jump.size())) + " " + std::string(word.substr(jump.size()));
+  }
+  return {};
+}
+
 }  // namespace ncport::frontend::sinumerik

@@ -53,5 +53,7 @@ std::string AsAddressWithValue(std::string_view word);
 std::string AsModeWithValue(std::string_view word);
 /// `TRANSX10`: a word that begins a block and an axis word, with the blank between them. Empty: no such word.
 std::string AsWordAndAxis(std::string_view word);
+/// `GOTOFREADY`: a jump word and its label, with the blank between them. Empty: no such word.
+std::string AsJumpAndLabel(std::string_view word);
 
 }  // namespace ncport::frontend::sinumerik

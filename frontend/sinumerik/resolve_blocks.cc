@@ -74,6 +74,7 @@ bool Resolver::BlockRules(const ir::Block& block) {
     if (word.op == WordOp::kChamfer) ok = ok && Limit(word, 0, 1e300, "0 and above");
     if (word.op == WordOp::kPolarRadius) ok = ok && Limit(word, 0, 1e300, "0 and above");
     if (CountsUp(word.op)) Sign(word);
+    if (word.op == WordOp::kAlarm) AlarmNumber(word);
     ok = ok && Turn(word);
   }
   if (ok && center != nullptr && radius != nullptr) {
@@ -101,7 +102,26 @@ bool Resolver::Turn(const ir::Word& word) {
   if (word.mode != ir::ValueMode::kShortest && word.mode != ir::ValueMode::kPositive &&
       word.mode != ir::ValueMode::kNegative)
     return true;
+  // Card 10, row 55: X, Y and Z have no turns.
+  if (word.op == WordOp::kAxis && word.index <= 2) {
+    const SourceRange at = module_.RangeOf(module_.blocks[block_], word);
+    sink_.Report(Code::kTypeMismatch, at, "a linear axis", "a rotary axis").help =
+        "DC, ACP and ACN are for rotary axes; X, Y and Z take AC or IC";
+    return false;
+  }
   return Limit(word, 0, 360, "0 to 359.999");
+}
+
+// Card 8.11 and 10, row 60: the numbers of cycles and of users. Others may be known to the control, so it is a warning.
+void Resolver::AlarmNumber(const ir::Word& word) {
+  constexpr double kFirst = 60000;
+  constexpr double kLast = 69999;
+  const std::optional<double> value = LiteralNumber(word.value);
+  if (!value || (*value >= kFirst && *value <= kLast)) return;
+  sink_
+      .ReportAs(diag::Severity::kWarning, Code::kOutOfRange, module_.RangeOf(module_.blocks[block_], word.value),
+                *value, "60000 to 69999")
+      .help = "alarms of users have the numbers 65000 to 69999, those of cycles 61000 to 64999";
 }
 
 // Card 8.10: the spindle words of one spindle exclude each other.
@@ -165,11 +185,17 @@ bool Resolver::EndAlone(const ir::Block& block) {
 // Card 8.4: the lead of a thread stands behind the letter of its axis.
 bool Resolver::Lead(const ir::Block& block) {
   const ir::Word* thread = nullptr;
-  bool axis = false;
+  const ir::Word* letter = nullptr;
+  const ir::Word* axis = nullptr;
   for (const ir::WordId id : block.words) {
     const ir::Word& word = module_.words[id];
-    if (word.op == WordOp::kCenter || word.op == WordOp::kAxisComputed) return true;
-    axis = axis || word.op == WordOp::kAxis;
+    if (word.op == WordOp::kAxisComputed || word.op == WordOp::kPolarAngle || word.op == WordOp::kPolarRadius)
+      return true;
+    if (word.op == WordOp::kCenter) letter = &word;
+    if (word.op == WordOp::kAxis) {
+      if (word.index > 2) return true;
+      axis = &word;
+    }
     if (word.op != WordOp::kMotion) continue;
     switch (static_cast<ir::Motion>(word.index)) {
       case ir::Motion::kThread:
@@ -183,8 +209,24 @@ bool Resolver::Lead(const ir::Block& block) {
         break;
     }
   }
-  if (thread == nullptr || !axis) return true;
-  const SourceRange at = module_.RangeOf(block, *thread);
+  if (thread == nullptr || axis == nullptr) return true;
+  std::uint32_t moved = 0;
+  std::uint32_t leads = 0;
+  for (const ir::WordId id : block.words) {
+    const ir::Word& word = module_.words[id];
+    if (word.op == WordOp::kAxis) moved |= 1U << word.index;
+    if (word.op == WordOp::kCenter) leads |= 1U << word.index;
+  }
+  if ((moved & leads) != 0) return true;
+  const SourceRange at = module_.RangeOf(block, letter != nullptr ? *letter : *thread);
+  if (letter != nullptr) {
+    const char axis_name = "XYZ"[axis->index];
+    const char right = "IJK"[axis->index];
+    sink_.Report(Code::kMissingValue, at, "lead of " + std::string(Slice(module_.RangeOf(block, *thread)))).help =
+        std::string("this block moves ") + axis_name + ", whose lead stands behind " + right + ", not " +
+        std::string(Slice(at).substr(0, 1));
+    return false;
+  }
   sink_.Report(Code::kMissingValue, at, "lead of " + std::string(Slice(at))).help =
       "the lead stands behind K for Z, I for X, J for Y";
   return false;

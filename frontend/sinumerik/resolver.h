@@ -57,6 +57,7 @@ class Resolver {
   bool PolarBesideAxis(const ir::Block& block);
   void Sign(const ir::Word& word);
   bool Turn(const ir::Word& word);
+  void AlarmNumber(const ir::Word& word);
   void Spindles(const ir::Block& block);
   bool Limit(const ir::Word& word, double low, double high, std::string_view range);
 

@@ -231,6 +231,7 @@ class Hints {
   bool ForeignSign() {
     if (at_ == 0) return false;
     for (const std::size_t token : {at_ - 1, at_}) {
+      if (token + 1 >= tokens_.size()) continue;
       const K kind = KindAt(token);
       if (kind != KindAt(token + 1) || tokens_[token].End() != tokens_[token + 1].offset) continue;
       if (kind == K::kSlash) {

@@ -16,6 +16,7 @@ using ir::WordOp;
 
 constexpr double kInch = 25.4;
 constexpr std::size_t kAxes = 3;  // X Y Z
+constexpr double kSamePoint = 1e-6;
 
 /// Words that leave the position of the axes as the program wrote it, and the coordinate system.
 bool KeepsCoordinates(WordOp op) {
@@ -199,8 +200,17 @@ class ArcCheck {
     }
     const bool inch = modes.units == ir::Units::kInch || modes.units == ir::Units::kInchGeometry;
     if (radius != nullptr) {
-      if (!has_center) {
-        Radius(id, *radius, std::hypot(*at_[plane[0]] - *start[plane[0]], *at_[plane[1]] - *start[plane[1]]) / 2, inch);
+      if (has_center || first == nullptr) return;
+      const double way = std::hypot(*at_[plane[0]] - *start[plane[0]], *at_[plane[1]] - *start[plane[1]]);
+      if (way > kSamePoint) {
+        Radius(id, *radius, way / 2, inch);
+      } else {
+        SourceRange place = subject_.PlaceOf(id, *first);
+        place.end = last->begin + last->length;
+        sink_
+            .ReportAs(diag::Severity::kWarning, diag::Code::kWordConflict, place,
+                      "an end point that is the start point", "a radius")
+            .help = "a full circle needs its centre, and other arcs another end point";
       }
       return;
     }

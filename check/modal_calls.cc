@@ -1,6 +1,11 @@
+#include <fmt/format.h>
+
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <set>
 
+#include "check/expressions.h"
 #include "check/rules.h"
 
 namespace ncport::check {
@@ -72,9 +77,62 @@ Meaning MeaningOf(const Subject& subject, const ir::Block& block, ir::Plane plan
   return meaning;
 }
 
+/// Whether the expression asks if a modal call is in force.
+bool AsksForModalCall(const ir::Module& module, ir::ExprId id) {
+  if (!id.Valid()) return false;
+  const ir::Expr& expr = module.exprs[id];
+  if (expr.op == ir::ExprOp::kSystem)
+    return module.systems[ir::SystemId{std::size_t{expr.a}}].kind == ir::SystemKind::kModalCallActive;
+  if (ir::OperandsOf(expr.op) != ir::Operands::kBinary) return false;
+  return AsksForModalCall(module, ir::ExprId{std::size_t{expr.a}}) ||
+         AsksForModalCall(module, ir::ExprId{std::size_t{expr.b}});
+}
+
+/// The alarm of a cycle that only moves from place to place and wants a modal call to do something there.
+std::optional<double> AlarmWithoutModalCall(const ir::Module& module, ir::ProgramId cycle) {
+  bool asked = false;
+  for (const BlockId id : module.programs[cycle].blocks) {
+    for (const ir::WordId word_id : module.blocks[id].words) {
+      const ir::Word& word = module.words[word_id];
+      if (asked && word.op == WordOp::kAlarm) return LiteralValue(module, word.value);
+      if (word.op == WordOp::kIf) asked = AsksForModalCall(module, word.value);
+    }
+  }
+  return std::nullopt;
+}
+
+/// Calls of such cycles where no modal call is in force on any way: they go to their places and do nothing there.
+void CheckCallsWithoutModalCall(const Subject& subject, ir::ProgramId program, diag::Sink& sink) {
+  const ir::Module& module = subject.module;
+  // A subprogram may be called with a modal call of programs that are not here.
+  if (module.programs[program].kind != ir::ProgramKind::kMain) return;
+  std::map<std::uint32_t, std::optional<double>> alarms;  // per cycle
+  for (const BlockId id : module.programs[program].blocks) {
+    const ir::Block& block = module.blocks[id];
+    // A block that was not understood may hold the modal call.
+    if ((block.flags & ir::Block::kRefused) != 0) return;
+    for (const ir::WordId word_id : block.words) {
+      const ir::Word& word = module.words[word_id];
+      if (word.op != WordOp::kCall || !word.Extra<CallId>().Valid()) continue;
+      const ir::ProgramId cycle = module.calls[word.Extra<CallId>()].program;
+      if (!cycle.Valid() || !module.programs[cycle].library || !subject.modal.Reached(program, id) ||
+          subject.modal.ModalCallBefore(program, id) != ModalCall::kNone)
+        continue;
+      const auto [known, fresh] = alarms.try_emplace(cycle.value);
+      if (fresh) known->second = AlarmWithoutModalCall(module, cycle);
+      if (!known->second) continue;
+      diag::Diagnostic& finding = sink.ReportAs(diag::Severity::kWarning, diag::Code::kCallAlarms,
+                                                subject.PlaceOf(id, word), fmt::format("{:.0f}", *known->second));
+      finding.notes.push_back({{}, "no modal call is in force here"});
+      finding.help = "it only goes from place to place: make the cycle that works there modal in front of it";
+    }
+  }
+}
+
 }  // namespace
 
 void CheckModalCalls(const Subject& subject, ir::ProgramId program, diag::Sink& sink) {
+  CheckCallsWithoutModalCall(subject, program, sink);
   const ir::Module& module = subject.module;
   std::set<std::uint32_t> told;
   for (const BlockId id : module.programs[program].blocks) {

@@ -26,8 +26,8 @@ void CheckUnusedLabels(const Subject& subject, ir::ProgramId program, diag::Sink
 void CheckJumpsIntoStructures(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
 /// NC4005: a way leads to the end of the text without an end word, where the control wants one.
 void CheckProgramEnd(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
-/// NC5004, NC2005: end points and centre of an arc that are all literal and do not lie on one circle, or a radius that
-/// does not reach from the start to the end.
+/// NC5004, NC2005, NC1013: end points and centre of an arc that are all literal and do not lie on one circle, a radius
+/// that does not reach from the start to the end, or a radius where both are one point.
 void CheckArcs(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
 /// NC5005, NC1002, NC1013: arcs that nothing describes, centres outside of the plane, a radius on a straight line,
 /// polar words beside an axis of the plane.
@@ -36,7 +36,8 @@ void CheckArcWords(const Subject& subject, ir::ProgramId program, diag::Sink& si
 void CheckLoopCounters(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
 /// NC3010: EQ or NE with a fraction that binary numbers do not hold, where the control compares exactly.
 void CheckExactComparisons(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
-/// NC4014: a modal call that is still in force where the tool changes, or where a cycle would run at a retract.
+/// NC4014: a modal call that is still in force where the tool changes, or where a cycle would run at a retract. NC4013: a
+/// cycle that needs a modal call, where none is in force on any way.
 void CheckModalCalls(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
 
 /// NC4007: jumps back from which no way leads to an end, a stop or an alarm.
@@ -74,7 +75,7 @@ void CheckSpindle(const Subject& subject, diag::Sink& sink);
 /// NC5002: a feed move whose last feed, on every way, is of the other kind, where a change of the kind drops the feed.
 void CheckFeedKind(const Subject& subject, diag::Sink& sink);
 /// NC5003: a feed move behind a new speed with which nothing starts the spindle, or behind a start for which no way
-/// sets a speed.
+/// sets a speed; the latter stands at the start.
 void CheckSpindleSpeed(const Subject& subject, diag::Sink& sink);
 
 }  // namespace ncport::check

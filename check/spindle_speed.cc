@@ -170,9 +170,10 @@ void CheckSpindleSpeed(const Subject& subject, diag::Sink& sink) {
       for (const ir::WordId word : module.blocks[at.started].words) {
         if (SpindleFlow::Starts(module.words[word])) start = &module.words[word];
       }
-      diag::Diagnostic& finding = sink.Report(diag::Code::kSpindleOff, subject.PlaceOf(id, *moving));
-      finding.notes.push_back({subject.PlaceOf(at.started, *start), "the spindle is started here without a speed"});
-      finding.help = "no block on the way here sets a speed: write S";
+      diag::Diagnostic& finding = sink.Report(diag::Code::kSpindleOff, subject.PlaceOf(at.started, *start));
+      finding.notes.push_back({{}, "the spindle is started here without a speed"});
+      finding.notes.push_back({subject.PlaceOf(id, *moving), "this move is the first that cuts so"});
+      finding.help = "no block on the way to the move sets a speed: write S";
     }
   }
 }

@@ -138,6 +138,27 @@ TEST_CASE("feed moves without a feed") {
   CHECK(Mill("G93\nG1 X1 F1\nTRANS X5\nG4 F2\nM30\n").empty());
 }
 
+TEST_CASE("arcs by their radius that end where they start") {
+  CHECK(Mill("G0 X4 Y5\nG1 Z-1 F100\nG2 X4 Y5 CR=8\nM30\n") == "NC1013 3");
+  CHECK(Mill("G0 X4 Y5 F100\nG3 X=AC(4) CR=8\nM30\n") == "NC1013 2");
+  CHECK(Lathe("G18 DIAMON\nG0 X20 Z0 F0.1\nG2 X20 Z0 CR=3\nM30\n") == "NC1013 3");
+  CHECK(Macro("O1\nG90 G0 G54 X3. Y0.\nG2 X3. Y0. R4. F100.\nM30\n") == "NC1013 3");
+  CHECK(Mill("G0 X4 Y5 F100\nG2 X4 Y5 I-3 J0\nM30\n").empty());
+  CHECK(Mill("G0 X4 Y5 F100\nG2 X4 Y6 CR=8\nM30\n").empty());
+  CHECK(Mill("G0 X4 Y5 F100\nTRANS X1\nG2 X4 Y5 CR=8\nM30\n").empty());
+  CHECK(Mill("G0 X4 Y5 F100\nG91 G2 X4 Y5 CR=8\nM30\n").empty());
+}
+
+TEST_CASE("cycles that go from hole to hole without a modal call") {
+  const std::string holes = "HOLES2(0,0,20,0,60,6)\n";
+  CHECK(Mill("G0 X0 Y0 Z5\nCYCLE81(10,0,2,-5)\n" + holes + "M30\n").find("NC4013 3") != std::string::npos);
+  CHECK(Mill("G0 X0 Y0 Z5\nHOLES1(0,0,0,5,10,3)\nM30\n") == "NC4013 2");
+  CHECK(Mill("G0 X0 Y0 Z5\nMCALL CYCLE81(10,0,2,-5)\n" + holes + "MCALL\n" + holes + "M30\n") == "NC4013 5");
+  CHECK(Mill("G0 X0 Y0 Z5\nMCALL CYCLE81(10,0,2,-5)\n" + holes + "MCALL\nM30\n").empty());
+  CHECK(Mill("G0 X0 Y0 Z5\nIF R1>0\nMCALL CYCLE81(10,0,2,-5)\nENDIF\n" + holes + "MCALL\nM30\n").empty());
+  CHECK(Sub("PROC SUB\n" + holes + "M17\n").empty());
+}
+
 TEST_CASE("arcs whose ends lie on no circle") {
   CHECK(Mill("G0 X0 Y0\nG2 X10 Y0 I4 J0 F100\nM30\n") == "NC5004 2");
   CHECK(Mill("G0 X0 Y0 F100\nG91 G3 X10 Y0 J5\nM30\n") == "NC5004 2");
@@ -260,8 +281,8 @@ TEST_CASE("a change of the kind of feed needs a new feed") {
 TEST_CASE("feed moves of a spindle that was not started, or has no speed") {
   CHECK(Mill("S1000\nG1 X5 F100\nX9\nM30\n") == "NC5003 2");
   CHECK(Mill("S1000 M3\nG1 X5 F100\nM5\nS2000\nG1 X9\nM30\n") == "NC5003 5");
-  CHECK(Mill("M3\nG0 X1\nG1 X5 F100\nM30\n") == "NC5003 3");
-  CHECK(Lathe("G96 LIMS=2000 M4\nG0 X50\nG1 Z5 F0.2\nM30\n") == "NC5003 3");
+  CHECK(Mill("M3\nG0 X1\nG1 X5 F100\nM30\n") == "NC5003 1");
+  CHECK(Lathe("G96 LIMS=2000 M4\nG0 X50\nG1 Z5 F0.2\nM30\n") == "NC5003 1");
   CHECK(Lathe("G96 S200 LIMS=2000\nG1 Z5 F0.2\nM30\n") == "NC5003 2");
   CHECK(Mill("S1000 M3\nG1 X5 F100\nM30\n").empty());
   CHECK(Mill("M3\nS1000\nG1 X5 F100\nM30\n").empty());

@@ -194,6 +194,7 @@ bool Resolver::CycleTypes(const ir::Call& call, const ir::Word& word, const Cycl
     if (!arg.value.Valid() || parameter.empty()) continue;
     const Type type = module_.exprs[arg.value].type;
     const bool text = type == Type::kString || type == Type::kChar;
+    if (text && IsTextParameter(cycle, parameter)) ContourLabels(arg.value);
     if (type == Type::kAny || type == Type::kNone || text == IsTextParameter(cycle, parameter)) continue;
     const std::string help = std::string(parameter) + " of " + std::string(cycle.cycle);
     return Mismatch(arg.value, text ? "a text" : "a number", text ? "a number" : "a text", help);
@@ -205,6 +206,35 @@ bool Resolver::CycleTypes(const ir::Call& call, const ir::Word& word, const Cycl
                 cycle.cycle, most, call.args.count)
       .help = "the last one is " + std::string(ParameterAt(cycle, most - 1)) + ": is a value or a comma too many?";
   return true;
+}
+
+// Card 8.12, CYCLE95: the contour stands between two labels of the program that calls.
+void Resolver::ContourLabels(ExprId text) {
+  const ir::Expr& expr = module_.exprs[text];
+  if (expr.op != ExprOp::kText) return;
+  const std::string_view names = module_.View(StringId{std::size_t{expr.a}});
+  const std::size_t colon = names.find(':');
+  if (colon == std::string_view::npos || colon < 2 || names.size() < colon + 3) return;
+  for (const char c : names) {
+    if (!IsLetter(c) && !IsDigit(c) && c != '_' && c != ':') return;
+  }
+  if (names.find(':', colon + 1) != std::string_view::npos) return;
+  const SourceRange at = module_.RangeOf(module_.blocks[block_], text);
+  // The other label of the text is not the one that is meant.
+  std::vector<std::string_view> known;
+  const std::string both = UpperOf(names);
+  for (const std::string& label : labels_) {
+    if (label != both.substr(0, colon) && label != both.substr(colon + 1)) known.push_back(label);
+  }
+  for (const std::size_t begin : {std::size_t{0}, colon + 1}) {
+    const std::string_view name = begin == 0 ? names.substr(0, colon) : names.substr(begin);
+    const std::string key = UpperOf(name);
+    if (labels_.contains(key) || refused_names_.contains(key)) continue;
+    diag::Diagnostic& finding = sink_.Report(Code::kUnknownLabel, at, name);
+    const std::string_view near = NearName(key, known);
+    finding.help = near.empty() ? "the contour stands between two labels of this program"
+                                : "did you mean " + std::string(near) + "?";
+  }
 }
 
 bool Resolver::CycleRanges(const ir::Call& call, const CycleParameters& cycle) {

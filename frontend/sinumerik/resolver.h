@@ -80,6 +80,8 @@ class Resolver {
   bool CycleLimits(const ir::Call& call);
   /// Number and types of the arguments of a cycle that ncport does not run.
   bool CycleTypes(const ir::Call& call, const ir::Word& word, const CycleParameters& cycle);
+  /// Labels that a text like "CON_A:CON_E" names as start and end of a contour.
+  void ContourLabels(ir::ExprId text);
   /// Literal values that the cycle does not take.
   bool CycleRanges(const ir::Call& call, const CycleParameters& cycle);
   /// The number that stands in the text, also with a sign or in brackets; nothing for what is computed.

@@ -3,6 +3,7 @@
 // must happen.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <string>
@@ -56,6 +57,8 @@ void ChangeValues(ir::Module& module, RandomSource& random) {
         expr.number = random.Pick(kValues);
         break;
     }
+    // No language reads an INT beyond its range.
+    if (expr.type == ir::Type::kInt) expr.number = std::clamp(expr.number, -2147483647.0, 2147483647.0);
     expr.number += 0.0;
     expr.format = {};
     expr.format.flags = ir::NumberFormat::kComputed;

@@ -156,6 +156,20 @@ void Allocation::FindUses() {
           if (place && (expr.op == ExprOp::kVariable || expr.op == ExprOp::kElement))
             written_[program.value].insert(expr.a);
         });
+        if (word.op != WordOp::kCall && word.op != WordOp::kModalCall) continue;
+        if (!word.Extra<CallId>().Valid()) continue;
+        // What a call takes by reference its program may write.
+        const Call& call = module_.calls[word.Extra<CallId>()];
+        if (!call.program.Valid()) continue;
+        const IdRange<VariableId> parameters = module_.programs[call.program].parameters;
+        for (const ArgId arg_id : call.args) {
+          const Arg& arg = module_.args[arg_id];
+          if (arg.letter != 0 || !arg.value.Valid() || arg.position >= parameters.count) continue;
+          const Expr& given = module_.exprs[arg.value];
+          const bool variable = given.op == ExprOp::kVariable || given.op == ExprOp::kElement;
+          if (variable && module_.variables[parameters[arg.position]].by_reference)
+            written_[program.value].insert(given.a);
+        }
       }
     }
   }

@@ -1,8 +1,9 @@
 #include "ir/transform/frame_flow.h"
 
 #include <cmath>
-#include <set>
+#include <optional>
 
+#include "ir/analysis/forward_flow.h"
 #include "ir/ops/trigonometry.h"
 #include "ir/transform/linear_form.h"
 
@@ -90,64 +91,80 @@ std::optional<PlaneImage> ImageOf(const FrameMatrix& matrix, std::uint8_t first,
   return PlaneImage{turn < 0, Clean(first_length)};
 }
 
+/// A shift may be an expression of the program that wrote it: where another program goes on, only no frame at all is
+/// the same.
+struct FrameFlow::Client {
+  using State = FrameState;
+
+  const FrameFlow& flow;
+  const std::vector<bool>& restores;
+  std::vector<bool> sets;          // per program: it or a program below has frame words
+  std::vector<bool> from_outside;  // per program: its callers are not known
+
+  static FrameState Anything() { return {FrameState::Kind::kUnknown, false, {}}; }
+  static FrameState Elsewhere(const FrameState& state) {
+    return state.kind == FrameState::Kind::kKnown && state.untouched ? state : Anything();
+  }
+  [[nodiscard]] bool Keeps(ProgramId program) const { return !sets[program.value] || restores[program.value]; }
+
+  [[nodiscard]] State Entry(ProgramId program) const {
+    return from_outside[program.value] && sets[program.value] ? Anything()
+                                                              : FrameState{FrameState::Kind::kKnown, true, {}};
+  }
+  [[nodiscard]] State Unknown(ProgramId) const { return Anything(); }
+  bool Join(BlockId, State& into, const State& from) const {
+    if (into.kind == FrameState::Kind::kUnknown || into == from) return false;
+    if (from.kind == FrameState::Kind::kUnknown || !(into.matrix == from.matrix)) {
+      into = Anything();
+      return true;
+    }
+    if (!into.untouched || from.untouched) return false;
+    into.untouched = false;
+    return true;
+  }
+  void Transfer(ProgramId program, BlockId block, State& state) const {
+    if (flow.FrameWord(block) != nullptr) state = flow.Apply(program, block, state, nullptr);
+  }
+  [[nodiscard]] std::optional<State> Into(const analysis::CallSite&, analysis::CallMoment moment,
+                                          const State& at) const {
+    if (moment == analysis::CallMoment::kModalStart) return std::nullopt;
+    return Elsewhere(at);
+  }
+  [[nodiscard]] State Back(const analysis::CallSite& site, const State& at, const State& exit) const {
+    return site.callee.Valid() && Keeps(site.callee) ? at : Elsewhere(exit);
+  }
+};
+
 FrameFlow::FrameFlow(const Module& module, const Machine& machine, const analysis::FlowGraphs& graphs,
                      const analysis::CallGraph& calls, const analysis::ModalFlow& modes,
                      const FrameFlowOptions& options)
-    : module_(module), machine_(machine), graphs_(graphs), modes_(modes), options_(options) {
-  sets_.assign(module.programs.Size(), 0);
+    : module_(module), machine_(machine), modes_(modes) {
+  std::vector<bool> restores = options.restores;
+  restores.resize(module.programs.Size(), false);
+  Client client{*this, restores, std::vector<bool>(module.programs.Size(), false),
+                std::vector<bool>(module.programs.Size(), false)};
   for (const ProgramId program : module.programs.Ids()) {
+    client.from_outside[program.value] = module.programs[program].kind != ProgramKind::kMain;
     for (const BlockId block : module.programs[program].blocks) {
-      if (FrameWord(block) != nullptr) sets_[program.value] = 1;
+      if (FrameWord(block) != nullptr) client.sets[program.value] = true;
     }
-    any_ = any_ || sets_[program.value] != 0;
+    any_ = any_ || client.sets[program.value];
   }
   if (!any_) return;
-  options_.restores.resize(module.programs.Size(), false);
-  std::vector<bool> called(module.programs.Size(), false), modal(module.programs.Size(), false);
   for (bool more = true; more;) {
     more = false;
     for (const analysis::CallSite& site : calls.AllSites()) {
-      if (!site.callee.Valid()) continue;
-      called[site.callee.value] = true;
-      modal[site.callee.value] = modal[site.callee.value] || site.modal;
-      if (sets_[site.callee.value] != 0 && !options_.restores[site.callee.value] && sets_[site.caller.value] == 0) {
-        sets_[site.caller.value] = 1;
-        more = true;
-      }
+      if (!site.callee.Valid() || client.Keeps(site.callee) || client.sets[site.caller.value]) continue;
+      client.sets[site.caller.value] = true;
+      more = true;
     }
   }
-  entries_.assign(module.programs.Size(), {});
-  exits_.assign(module.programs.Size(), {});
-  in_.resize(module.programs.Size());
-  for (const ProgramId program : module.programs.Ids()) {
-    in_[program.value].assign(module.programs[program].blocks.count, {});
-    FrameState& entry = entries_[program.value];
-    const bool main = module.programs[program].kind == ProgramKind::kMain;
-    if (modal[program.value] || (!called[program.value] && !main && sets_[program.value] != 0)) {
-      // After any block with a move, or from a caller that nobody knows.
-      entry = {FrameState::Kind::kUnknown, false, {}};
-    } else if (!called[program.value] || main) {
-      entry.kind = FrameState::Kind::kKnown;
-    }
+  analysis::ForwardFlow<Client> flow({module, machine, graphs, calls, &modes}, client);
+  flow.Run();
+  in_.resize(module.blocks.Size());
+  for (const BlockId block : module.blocks.Ids()) {
+    if (const FrameState* state = flow.Before(block)) in_[block.value] = *state;
   }
-  do {
-    changed_ = false;
-    for (const ProgramId program : module.programs.Ids()) Follow(program);
-  } while (changed_);
-}
-
-bool FrameFlow::Join(FrameState& at, const FrameState& from) {
-  if (from.kind == FrameState::Kind::kNoWay || at.kind == FrameState::Kind::kUnknown || at == from) return false;
-  if (at.kind == FrameState::Kind::kNoWay) {
-    at = from;
-  } else if (from.kind == FrameState::Kind::kUnknown || !(at.matrix == from.matrix)) {
-    at = {FrameState::Kind::kUnknown, false, {}};
-  } else if (at.untouched && !from.untouched) {
-    at.untouched = false;
-  } else {
-    return false;
-  }
-  return true;
 }
 
 const Word* FrameFlow::FrameWord(BlockId block) const {
@@ -227,90 +244,9 @@ FrameState FrameFlow::Apply(ProgramId program, BlockId block, FrameState state, 
   return state;
 }
 
-FrameState FrameFlow::Through(ProgramId program, BlockId block, const FrameState& state, bool note) {
-  FrameState now = state;
-  if (FrameWord(block) != nullptr) {
-    now = Apply(program, block, state, nullptr);
-    bool conditional = module_.blocks[block].skip_level != Block::kNoSkip;
-    for (const WordId id : module_.blocks[block].words) {
-      const WordOp op = module_.words[id].op;
-      conditional = conditional || op == WordOp::kWhen || op == WordOp::kSkipRest;
-    }
-    if (conditional) {
-      FrameState both = state;
-      Join(both, now);
-      now = both;
-    }
-  }
-  for (const WordId id : module_.blocks[block].words) {
-    const Word& word = module_.words[id];
-    if (word.op != WordOp::kCall && word.op != WordOp::kModalCall) continue;
-    if (!word.Extra<CallId>().Valid()) continue;
-    const ProgramId callee = module_.calls[word.Extra<CallId>()].program;
-    if (!callee.Valid()) {
-      now = {FrameState::Kind::kUnknown, false, {}};
-      continue;
-    }
-    if (word.op == WordOp::kModalCall) continue;
-    // A shift may be an expression of the caller: only no frame at all is the same in the program that is called.
-    FrameState given = now;
-    if (given.kind == FrameState::Kind::kKnown && !given.untouched) given = {FrameState::Kind::kUnknown, false, {}};
-    if (note && Join(entries_[callee.value], given)) changed_ = true;
-    if (sets_[callee.value] == 0 || options_.restores[callee.value]) continue;
-    const FrameState& exit = exits_[callee.value];
-    if (exit.kind == FrameState::Kind::kKnown && exit.untouched) {
-      now = exit;
-    } else if (exit.kind == FrameState::Kind::kNoWay) {
-      now = {};
-    } else {
-      now = {FrameState::Kind::kUnknown, false, {}};
-    }
-  }
-  return now;
-}
-
-void FrameFlow::Follow(ProgramId program) {
-  const IdRange<BlockId> blocks = module_.programs[program].blocks;
-  std::vector<FrameState>& in = in_[program.value];
-  if (blocks.count == 0) {
-    if (Join(exits_[program.value], entries_[program.value])) changed_ = true;
-    return;
-  }
-  std::set<std::uint32_t> work;
-  if (Join(in[0], entries_[program.value])) changed_ = true;
-  for (std::uint32_t i = 0; i < blocks.count; ++i) {
-    if (in[i].kind != FrameState::Kind::kNoWay) work.insert(i);
-  }
-  const analysis::Cfg& graph = graphs_.Of(program);
-  if (graph.Opaque() && sets_[program.value] != 0) {
-    for (FrameState& state : in) changed_ = Join(state, {FrameState::Kind::kUnknown, false, {}}) || changed_;
-    changed_ = Join(exits_[program.value], {FrameState::Kind::kUnknown, false, {}}) || changed_;
-  }
-  while (!work.empty()) {
-    const std::uint32_t index = *work.begin();
-    work.erase(work.begin());
-    const FrameState out = Through(program, blocks[index], in[index], true);
-    const auto give = [&](BlockId to) {
-      const std::uint32_t place = to.value - blocks.begin;
-      if (!Join(in[place], out)) return;
-      changed_ = true;
-      work.insert(place);
-    };
-    for (const analysis::Edge& edge : graph.Successors(blocks[index])) {
-      if (edge.to.Valid()) {
-        give(edge.to);
-      } else if (edge.kind == analysis::EdgeKind::kComputed) {
-        for (const BlockId target : graph.ComputedTargets()) give(target);
-      } else if (edge.kind != analysis::EdgeKind::kAlarm && edge.kind != analysis::EdgeKind::kMissing) {
-        changed_ = Join(exits_[program.value], out) || changed_;
-      }
-    }
-  }
-}
-
-FrameState FrameFlow::Before(ProgramId program, BlockId block) const {
+FrameState FrameFlow::Before(ProgramId /*program*/, BlockId block) const {
   if (!any_) return {FrameState::Kind::kKnown, true, {}};
-  return in_[program.value][block.value - module_.programs[program].blocks.begin];
+  return in_[block.value];
 }
 
 FrameState FrameFlow::After(ProgramId program, BlockId block) const {

@@ -66,22 +66,16 @@ class FrameFlow {
   [[nodiscard]] std::string_view Trouble(ProgramId program, BlockId block) const;
 
  private:
-  static bool Join(FrameState& at, const FrameState& from);
+  struct Client;
+
   [[nodiscard]] const Word* FrameWord(BlockId block) const;
   FrameState Apply(ProgramId program, BlockId block, FrameState state, std::string_view* trouble) const;
-  FrameState Through(ProgramId program, BlockId block, const FrameState& state, bool note);
-  void Follow(ProgramId program);
 
   const Module& module_;
   const Machine& machine_;
-  const analysis::FlowGraphs& graphs_;
   const analysis::ModalFlow& modes_;
-  FrameFlowOptions options_;
   bool any_ = false;
-  bool changed_ = false;
-  std::vector<std::uint8_t> sets_;           // per program: it or a program below has frame words
-  std::vector<FrameState> entries_, exits_;  // per program
-  std::vector<std::vector<FrameState>> in_;  // per program and block
+  std::vector<FrameState> in_;  // per block
 };
 
 }  // namespace ncport::ir::transform

@@ -49,8 +49,7 @@ constexpr std::string_view kBackWithoutTools = NCPORT_NO_FANUC NCPORT_NO_WAY_BAC
 #undef NCPORT_NO_FANUC
 // These are refused so often that they would hide what else happens: modal calls and repeated macro calls beside
 // subprograms that share locals, and changes of the spindle mode, which choose the feed's unit there (sinumerik-8.1).
-// Inches wait for threads under G93: exec takes their F for a number per revolution that no unit scales.
-constexpr std::string_view kGenerated = "units=0,surface-speed=0,modal-call=0,passes=0";
+constexpr std::string_view kGenerated = "surface-speed=0,modal-call=0,passes=0";
 // What literal blocks have no word for.
 constexpr std::string_view kNotFlat =
     "tap=0,machine-coords=0,reference=0,spindle-position=0,aux-h=0,thread-variable=0,thread-start=0,"

@@ -92,5 +92,24 @@ TEST_CASE("a program called under a frame does not know it") {
   CHECK(flow.Before(0, 2).kind == FrameState::Kind::kKnown);
 }
 
+TEST_CASE("a modal call leaves its frame behind each block with motion, until it ends") {
+  const std::string_view sub =
+      "program SUB sub @m:10\n  @m:11 : frame add-translate; axis Z = 1\n  @m:12 : return plain\n";
+  const std::string_view caller =
+      "program M main @m:0\n"
+      "  @m:1 : modal-call name SUB calls SUB\n"
+      "  @m:2 : axis X = 1\n"
+      "  @m:3 : modal-call\n"
+      "  @m:4 : axis Z = 1\n"
+      "  @m:5 : program-end #30\n";
+  const Flow flow(std::string(caller) + std::string(sub));
+  CHECK(flow.Before(0, 1).untouched);
+  CHECK(flow.Before(0, 2).kind == FrameState::Kind::kUnknown);
+  CHECK(flow.Before(0, 3).kind == FrameState::Kind::kUnknown);
+  CHECK(flow.Before(1, 0).kind == FrameState::Kind::kUnknown);
+  const Flow saved(std::string(caller) + std::string(sub), {false, true});
+  CHECK(saved.Before(0, 3).untouched);
+}
+
 }  // namespace
 }  // namespace ncport::ir::transform

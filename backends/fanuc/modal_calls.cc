@@ -26,6 +26,20 @@ Word Cancel() {
   return word;
 }
 
+/// Per program: a modal call runs it, or a program that calls it.
+std::vector<bool> RunByModalCalls(const ir::Module& module, const ir::analysis::CallGraph& calls) {
+  std::vector<bool> run(module.programs.Size(), false);
+  for (bool more = true; more;) {
+    more = false;
+    for (const ir::analysis::CallSite& site : calls.AllSites()) {
+      if (!site.callee.Valid() || run[site.callee.value] || (!site.modal && !run[site.caller.value])) continue;
+      run[site.callee.value] = true;
+      more = true;
+    }
+  }
+  return run;
+}
+
 }  // namespace
 
 bool MapModalCalls(const RaiseInput& input, ir::Module& module, diag::Sink& sink) {
@@ -35,6 +49,7 @@ bool MapModalCalls(const RaiseInput& input, ir::Module& module, diag::Sink& sink
   const ir::analysis::FlowGraphs graphs(module);
   const ir::analysis::CallGraph calls(module);
   const ModalFlow flow(module, *input.source_machine, graphs, calls, {input.source_machine->start, entry});
+  const std::vector<bool> run_by_modal_calls = RunByModalCalls(module, calls);
   bool ok = true;
   for (const ir::ProgramId program : module.programs.Ids()) {
     ir::transform::ProgramEditor editor(module, program, "modal_calls");
@@ -44,6 +59,15 @@ bool MapModalCalls(const RaiseInput& input, ir::Module& module, diag::Sink& sink
         const Word word = module.words[word_id];
         if (word.op != WordOp::kModalCall || !flow.Reached(program, id)) continue;
         const bool sets = word.Extra<ir::CallId>().Valid();
+        if (run_by_modal_calls[program.value]) {
+          ok = false;
+          sink.Report(diag::Code::kNotExpressible, module.RangeOf(block, word),
+                      sets ? "a modal call in a program that a modal call runs"
+                           : "the end of a modal call in the program that it runs",
+                      input.profile->name)
+              .help = "start and end modal calls in the program that moves";
+          continue;
+        }
         switch (flow.ModalCallBefore(program, id)) {
           case ModalFlow::ModalCall::kUnknown:
             ok = false;

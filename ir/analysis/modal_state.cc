@@ -359,6 +359,19 @@ void ModalFlow::ChangeModalCall(const Word& word, State& state) const {
   }
 }
 
+ProgramId ModalFlow::ProgramOf(std::uint32_t known_call) const {
+  CallId call;
+  call.value = known_call - kKnownCall;
+  return module_.calls[call].program;
+}
+
+bool ModalFlow::KeepsModalCall(ProgramId program) const {
+  if (!program.Valid()) return true;
+  const Summary& summary = summaries_[program.value];
+  const auto keeps = [](const State& change) { return IsNever(change) || change.modal_call == kSame32; };
+  return keeps(summary.after) && keeps(summary.elsewhere);
+}
+
 void ModalFlow::ThroughModalCall(Walk& walk) {
   const std::uint32_t active = walk.state.modal_call;
   if (IsNever(walk.state) || active == kNoCall || active == kSame32) return;
@@ -375,7 +388,13 @@ void ModalFlow::ThroughModalCall(Walk& walk) {
     anything.modal_call = kNoCall;
     for (const ProgramId program : modal_programs_) Enter(program, anything);
   }
-  if (!IsNever(called.state)) called.state.modal_call = active;
+  if (!IsNever(called.state)) {
+    const bool kept =
+        active >= kKnownCall
+            ? KeepsModalCall(ProgramOf(active))
+            : std::ranges::all_of(modal_programs_, [&](ProgramId program) { return KeepsModalCall(program); });
+    called.state.modal_call = kept ? active : 0;
+  }
   walk.elsewhere = called.elsewhere;
   walk.state = Join(walk.state, called.state);
 }
@@ -388,9 +407,7 @@ void ModalFlow::ThroughCall(const Call& call, Walk& walk) {
   // for ranges of blocks.
   bool quiet = modal_call == kNoCall || modal_call == kSame32;
   if (!quiet && modal_call >= kKnownCall && machine_.modal_call_levels <= 1) {
-    CallId active;
-    active.value = modal_call - kKnownCall;
-    const ProgramId runs = module_.calls[active].program;
+    const ProgramId runs = ProgramOf(modal_call);
     quiet = runs.Valid() && module_.programs[runs].saves_modal_state;
   }
   const bool known = call.program.Valid() && call.form != CallForm::kBlockRange && !call.from_block;
@@ -405,6 +422,7 @@ void ModalFlow::ThroughCall(const Call& call, Walk& walk) {
   State anything = All(0);
   anything.modal_call = modal_call;
   if (call.program.Valid()) Enter(call.program, anything);
+  if (!KeepsModalCall(call.program)) anything.modal_call = 0;
   if (call.program.Valid()) walk.elsewhere = Join(walk.elsewhere, anything);
   walk.state = anything;
 }

@@ -88,6 +88,9 @@ class ModalFlow {
   bool Analyse(ProgramId program, const State& start);
   Walk Through(BlockId block, const State& before);
   void ThroughCall(const Call& call, Walk& walk);
+  [[nodiscard]] ProgramId ProgramOf(std::uint32_t known_call) const;
+  /// False if the program, or one that it calls, starts or ends modal calls.
+  [[nodiscard]] bool KeepsModalCall(ProgramId program) const;
   void ThroughModalCall(Walk& walk);
   void Change(const Word& word, State& state, std::uint8_t& one_block_motion);
   void ChangeWorkOffset(const Word& word, State& state);

@@ -48,6 +48,10 @@ struct Analysis {
     const ProgramId id{program};
     return flow->At(id, module.programs[id].blocks[block]);
   }
+  ModalFlow::ModalCall ModalBefore(std::size_t program, std::uint32_t block) const {
+    const ProgramId id{program};
+    return flow->ModalCallBefore(id, module.programs[id].blocks[block]);
+  }
   bool Reached(std::size_t program, std::uint32_t block) const {
     const ProgramId id{program};
     return flow->Reached(id, module.programs[id].blocks[block]);
@@ -265,6 +269,26 @@ TEST_CASE("ir modal_state: nested modal calls are not tracked by name, only coun
   CHECK(a.Before(0, 3).plane == Plane::kXY);
   CHECK(a.Before(0, 4).plane == Plane::kUnknown);
   CHECK(a.Before(0, 7).plane == Plane::kXY);
+}
+
+TEST_CASE("ir modal_state: a program that ends a modal call leaves it unknown, whether called or run by it") {
+  Analysis called(
+      "program P main\n@- : modal-call name S calls S\n@- : call name E calls E\n@- : axis X = 1\n"
+      "program S sub\n@- : feed = 5\nprogram E sub\n@- : modal-call\n");
+  called.Run();
+  CHECK(called.ModalBefore(0, 1) == ModalFlow::ModalCall::kActive);
+  CHECK(called.ModalBefore(0, 2) == ModalFlow::ModalCall::kUnknown);
+  Analysis run(
+      "program P main\n@- : modal-call name S calls S\n@- : axis X = 1\n@- : axis X = 2\n"
+      "program S sub\n@- : call name E calls E\nprogram E sub\n@- : modal-call\n");
+  run.Run();
+  CHECK(run.ModalBefore(0, 1) == ModalFlow::ModalCall::kActive);
+  CHECK(run.ModalBefore(0, 2) == ModalFlow::ModalCall::kUnknown);
+  Analysis kept(
+      "program P main\n@- : modal-call name S calls S\n@- : call name S calls S\n@- : axis X = 1\n@- : axis X = 2\n"
+      "program S sub\n@- : feed = 5\n");
+  kept.Run();
+  CHECK(kept.ModalBefore(0, 3) == ModalFlow::ModalCall::kActive);
 }
 
 TEST_CASE("ir modal_state: returns to a target of the caller carry their modes there") {

@@ -15,6 +15,7 @@
 #include "frontend/common/token.h"
 #include "frontend/sinumerik/reader_state.h"
 #include "frontend/sinumerik/recipe.h"
+#include "frontend/sinumerik/token_kind.h"
 #include "ir/module.h"
 
 namespace ncport::frontend::sinumerik {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "frontend/sinumerik/token_source.h"
+#include "frontend/sinumerik/macros.h"
 #include "ir/nodes.h"
 
 namespace ncport::frontend::sinumerik {

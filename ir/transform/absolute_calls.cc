@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "ir/transform/dimension_pass.h"
+#include "ir/word_values.h"
 
 namespace ncport::ir::transform {
 
@@ -15,6 +16,76 @@ bool Leaves(analysis::EdgeKind kind) {
 }
 
 }  // namespace
+
+bool DimensionPass::TriggersModal(ProgramId program, BlockId id) const {
+  if (!flow_.ModalCallPossible(program, id)) return false;
+  for (const WordId word : module_.blocks[id].words) {
+    if (DefaultPhaseOf(module_.words[word].op) == Phase::kMotion) return true;
+  }
+  return false;
+}
+
+/// What runs behind each call moves and writes.
+void DimensionPass::FindEffects() {
+  effects_.assign(module_.programs.Size(), {});
+  bool changed = true;
+  while (changed) {
+    changed = false;
+    for (const Word& word : module_.words.All()) {
+      if (word.op != WordOp::kModalCall || !word.Extra<CallId>().Valid()) continue;
+      const ProgramId runs = module_.calls[word.Extra<CallId>()].program;
+      const Effects below = runs.Valid() ? effects_[runs.value] : Effects{kAllSlots, true, true};
+      modal_.slots |= below.slots;
+      modal_.writes_shared = modal_.writes_shared || below.writes_shared;
+      modal_.reframes = modal_.reframes || below.reframes;
+    }
+    for (const ProgramId program : module_.programs.Ids()) {
+      Effects now = effects_[program.value];
+      for (const BlockId block : module_.programs[program].blocks) {
+        if (TriggersModal(program, block)) {
+          now.slots |= modal_.slots;
+          now.writes_shared = now.writes_shared || modal_.writes_shared;
+          now.reframes = now.reframes || modal_.reframes;
+        }
+        for (const WordId id : module_.blocks[block].words) {
+          const Word& word = module_.words[id];
+          if (word.op == WordOp::kAxis) now.slots |= MaskOf(word.index);
+          if (word.op == WordOp::kAxisComputed || word.op == WordOp::kOpeningAngle)
+            now.slots |= kAllSlots & ~kPolarSlots;
+          if (word.op == WordOp::kPolarAngle || word.op == WordOp::kPolarRadius || word.op == WordOp::kPole)
+            now.slots = kAllSlots;
+          if (word.op == WordOp::kPlane) now.slots |= kPolarSlots;
+          if (word.op == WordOp::kFrame) now.slots |= kLinearSlots | kShiftSlots;
+          // The zero point moves: what the axes stand at are other numbers then.
+          if (word.op == WordOp::kWorkOffset || word.op == WordOp::kPresetPosition) now.slots |= kAxisSlots;
+          now.reframes = now.reframes || word.op == WordOp::kFrame || word.op == WordOp::kWorkOffset ||
+                         word.op == WordOp::kPresetPosition;
+          VisitPlaces(module_, word, [&](ExprId written) {
+            const Expr& place = module_.exprs[written];
+            const bool own = (place.op == ExprOp::kVariable || place.op == ExprOp::kElement) &&
+                             module_.variables[VariableId{place.a}].owner == program &&
+                             !module_.variables[VariableId{place.a}].by_reference;
+            now.writes_shared = now.writes_shared || !own;
+          });
+          if (word.op == WordOp::kCall || word.op == WordOp::kModalCall) {
+            const auto call = word.Extra<CallId>();
+            if (!call.Valid()) continue;
+            const ProgramId callee = module_.calls[call].program;
+            const Effects below = callee.Valid() ? effects_[callee.value] : Effects{kAllSlots, true, true};
+            now.slots |= below.slots;
+            now.writes_shared = now.writes_shared || below.writes_shared;
+            now.reframes = now.reframes || below.reframes;
+          }
+        }
+      }
+      Effects& known = effects_[program.value];
+      if (now.slots != known.slots || now.writes_shared != known.writes_shared || now.reframes != known.reframes) {
+        known = now;
+        changed = true;
+      }
+    }
+  }
+}
 
 /// Programs whose every call is here and runs the whole program at once.
 void DimensionPass::FindPassable() {

@@ -1,5 +1,5 @@
-// The inside of absolute_dimensions.h: what its parts share. Flow of positions and axis words are in
-// absolute_dimensions.cc, arcs and polar words in absolute_plane.cc, frames in
+// The inside of absolute_dimensions.h: what its parts share. Axis words are in absolute_dimensions.cc, the flow of
+// positions in absolute_flow.cc, arcs and polar words in absolute_plane.cc and absolute_pieces.cc, frames in
 // absolute_frames.cc, positions across calls in absolute_calls.cc, increments that stay in absolute_kept.cc.
 #pragma once
 

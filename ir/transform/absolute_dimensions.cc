@@ -187,7 +187,11 @@ void DimensionPass::RewriteCenter(BlockId id, Word& word, const Slots& in) {
       (word.op == WordOp::kCenter && word.mode != ValueMode::kAbsolute)) {
     word.value = Scaled(word.value, UnitFactor(state));
   } else if (word.op == WordOp::kFeed && state.units == Units::kInch && state.feed_mode != FeedMode::kInverseTime) {
+    const bool open = state.feed_mode == FeedMode::kUnknown && inverse_time_;
+    if (open) RefuseOpenMode(id, word, "the feed mode (a length or 1/min)");
     word.value = Scaled(word.value, kInch);
+  } else if (word.op == WordOp::kSpeed && state.units == Units::kInch && state.speed_mode == SpeedMode::kUnknown) {
+    if (surface_speed_) RefuseOpenMode(id, word, "the speed mode (1/min or surface speed)");
   } else if (word.op == WordOp::kSpeed && state.units == Units::kInch &&
              state.speed_mode == SpeedMode::kConstantSurface) {
     // A number is checked where it is printed; a computed one would be rounded to whole m/min unseen.
@@ -204,6 +208,14 @@ void DimensionPass::RewriteCenter(BlockId id, Word& word, const Slots& in) {
     word.value = ExprOf(module_, *center);
     word.mode = ValueMode::kStep;
   }
+}
+
+/// A number that is scaled in one mode and not in another.
+void DimensionPass::RefuseOpenMode(BlockId id, const Word& word, std::string_view group) {
+  if (!flow_.Reached(program_, id)) return;
+  ok_ = false;
+  sink_.Report(diag::Code::kUnknownModalState, module_.RangeOf(module_.blocks[id], word), group,
+               "the programs that lead here leave it open");
 }
 
 /// Machine coordinates are absolute whatever the distance mode; their unit and diameters are those of the block.
@@ -225,13 +237,23 @@ void DimensionPass::RewriteMachineWords(BlockId id) {
   rewritten_.emplace_back(id, std::move(words));
 }
 
-/// True where some program switches to inches: a unit that is not one on every way may then be that.
-bool DimensionPass::InchesOccur() const {
-  const auto inch = [](Units units) { return units == Units::kInch || units == Units::kInchGeometry; };
-  if (inch(source_.start.units) || inch(config_.sub_entry.units)) return true;
-  return std::ranges::any_of(module_.words.All(), [&](const Word& word) {
-    return word.op == WordOp::kUnits && inch(static_cast<Units>(word.index));
-  });
+/// True where some program switches to it: a mode that is not one on every way may then be that.
+bool DimensionPass::Occurs(WordOp op, std::uint8_t value) const {
+  return std::ranges::any_of(module_.words.All(),
+                             [&](const Word& word) { return word.op == op && word.index == value; });
+}
+
+void DimensionPass::FindModesThatOccur() {
+  const auto occurs = [&](WordOp op, auto value, auto start, auto sub_entry) {
+    return start == value || sub_entry == value || Occurs(op, static_cast<std::uint8_t>(value));
+  };
+  const ModalState& start = source_.start;
+  const ModalState& entry = config_.sub_entry;
+  for (const Units units : {Units::kInch, Units::kInchGeometry}) {
+    inches_ = inches_ || occurs(WordOp::kUnits, units, start.units, entry.units);
+  }
+  inverse_time_ = occurs(WordOp::kFeedMode, FeedMode::kInverseTime, start.feed_mode, entry.feed_mode);
+  surface_speed_ = occurs(WordOp::kSpeedMode, SpeedMode::kConstantSurface, start.speed_mode, entry.speed_mode);
 }
 
 void DimensionPass::RefuseOpenUnits(BlockId id) {
@@ -393,7 +415,7 @@ bool DimensionPass::RunProgram(ProgramId program) {
 }
 
 bool DimensionPass::Run() {
-  inches_ = InchesOccur();
+  FindModesThatOccur();
   FindRanges();
   FindEffects();
   FindKept();

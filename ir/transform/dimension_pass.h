@@ -168,8 +168,10 @@ class DimensionPass {
   };
   Scale ScaleOf(const Word& word, std::uint8_t axis, const ModalState& state, BlockId block, bool report);
   static double UnitFactor(const ModalState& state);
-  [[nodiscard]] bool InchesOccur() const;
+  [[nodiscard]] bool Occurs(WordOp op, std::uint8_t value) const;
+  void FindModesThatOccur();
   void RefuseOpenUnits(BlockId block);
+  void RefuseOpenMode(BlockId id, const Word& word, std::string_view group);
   ExprId Scaled(ExprId value, double factor);
   [[nodiscard]] LinearForm ScaledForm(ExprId value, double factor) const {
     return Sum(module_, {}, FormOf(module_, value), factor);
@@ -290,10 +292,10 @@ class DimensionPass {
   std::vector<SlotMask> carried_;        // slots that arrive in their local
   std::vector<Slots> in_;
   std::optional<ProgramEditor> editor_;
-  std::vector<std::pair<BlockId, std::vector<Word>>> rewritten_;  // changed when all blocks were looked at
-  SlotMask saving_ = 0;                                           // slots whose locals are being written
-  SlotMask unknown_left_ = 0;                                     // positions that some end does not know
-  bool inches_ = false;
+  std::vector<std::pair<BlockId, std::vector<Word>>> rewritten_;        // changed when all blocks were looked at
+  SlotMask saving_ = 0;                                                 // slots whose locals are being written
+  SlotMask unknown_left_ = 0;                                           // positions that some end does not know
+  bool inches_ = false, inverse_time_ = false, surface_speed_ = false;  // occur somewhere
   bool ok_ = true;
 };
 

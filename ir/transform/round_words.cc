@@ -1,5 +1,6 @@
 #include "ir/transform/round_words.h"
 
+#include <algorithm>
 #include <optional>
 
 #include "ir/analysis/call_graph.h"
@@ -24,6 +25,7 @@ class Pass {
 
   bool Run() {
     everywhere_ = ReadsPositions() || HasArcToPoint();
+    changes_unit_ = ChangesUnit();
     for (const ProgramId program : module_.programs.Ids()) {
       for (const BlockId block : module_.programs[program].blocks) {
         state_ = flow_.At(program, block);
@@ -57,6 +59,15 @@ class Pass {
     return false;
   }
 
+  /// Some moves may be in inches, others in millimetres.
+  [[nodiscard]] bool ChangesUnit() const {
+    const auto inch = [](Units units) { return units == Units::kInch || units == Units::kInchGeometry; };
+    const bool start = inch(source_.start.units);
+    return std::ranges::any_of(module_.words.All(), [&](const Word& word) {
+      return word.op == WordOp::kUnits && inch(static_cast<Units>(word.index)) != start;
+    });
+  }
+
   void RoundWord(BlockId block, WordId id) {
     Word word = module_.words[id];
     if ((word.flags & Word::kRoundsValue) == 0) return;
@@ -69,7 +80,10 @@ class Pass {
       case WordOp::kAxis: {
         const bool absolute = word.mode == ValueMode::kAbsolute ||
                               (word.mode == ValueMode::kModal && state_.distance == Distance::kAbsolute);
-        if (absolute && !everywhere_) break;
+        // Half an increment of an absolute word is no difference, but one of an inch is seen where millimetres follow.
+        const bool coarse =
+            changes_unit_ && !IsRotary(word.index) && state_.units != Units::kMm && state_.units != Units::kMmGeometry;
+        if (absolute && !everywhere_ && !coarse) break;
         const std::optional<double> step = StepOf(block, word);
         if (step) word.value = RoundedTo(module_, word.value, *step);
         break;
@@ -113,6 +127,7 @@ class Pass {
   analysis::ModalFlow flow_;
   ModalState state_;
   bool everywhere_ = false;
+  bool changes_unit_ = false;
   bool ok_ = true;
 };
 

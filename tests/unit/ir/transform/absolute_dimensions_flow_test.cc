@@ -108,6 +108,21 @@ TEST_CASE("lengths of inch programs are mm, feeds too; degrees and times are not
         "radius = -25.4; axis X absolute = mul(25.4, R[1])\n");
 }
 
+TEST_CASE("in inches a feed or speed whose mode is open may not be scaled or left, where both modes occur") {
+  const Absolute feed =
+      Run("  @m:1 : units inch; feed-mode inverse-time\n"
+          "  @m:2 label L : axis X = 1; feed = 10\n"
+          "  @m:3 : feed-mode per-minute\n"
+          "  @m:4 : jump backward label L = lt(R[1], 4)\n");
+  CHECK(feed.findings == "NC5006");
+  const Absolute speed =
+      Run("  @m:1 : units inch; speed-mode constant-surface\n"
+          "  @m:2 label L : axis X = 1; speed = 10\n"
+          "  @m:3 : speed-mode rpm\n"
+          "  @m:4 : jump backward label L = lt(R[1], 4)\n");
+  CHECK(speed.findings == "NC5006");
+}
+
 TEST_CASE("the transverse axis in the terms of the target (sinumerik-8.5)") {
   Setting setting;
   setting.lathe = true;

@@ -53,6 +53,16 @@ TEST_CASE("the least increment follows the unit; degrees have none") {
   CHECK(sink.Empty());
 }
 
+TEST_CASE("absolute words in inches are rounded where other moves are in millimetres") {
+  diag::Sink sink;
+  CHECK(Rounded("  @m:1 : units inch; axis X = R[1] {rounds}; axis C = R[1] {rounds}\n"
+                "  @m:2 : units mm; axis X = R[1] {rounds}\n",
+                sink) ==
+        "units inch; axis X = div(call round(mul(R[1], 10000.0000001)), 10000); axis C = R[1]\n"
+        "units mm; axis X = R[1]\n");
+  CHECK(sink.Empty());
+}
+
 TEST_CASE("where an arc has an end point, absolute words, centres and radii are rounded everywhere") {
   diag::Sink sink;
   CHECK(Rounded("  @m:1 : axis X = R[1] {rounds}\n"

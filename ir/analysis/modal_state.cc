@@ -417,6 +417,8 @@ void ModalFlow::ThroughCall(const Call& call, Walk& walk) {
     const auto after = [&](const State& change) { return IsNever(change) ? change : Apply(change, walk.state); };
     walk.elsewhere = Join(walk.elsewhere, after(summary.elsewhere));
     walk.state = after(summary.after);
+    // A change is the same whatever was before: one pass more leaves what the first one left.
+    if (call.passes.Valid() && !IsNever(walk.state)) Enter(call.program, walk.state);
     return;
   }
   State anything = All(0);

@@ -61,10 +61,8 @@ class Pass {
 
   /// Some moves may be in inches, others in millimetres.
   [[nodiscard]] bool ChangesUnit() const {
-    const auto inch = [](Units units) { return units == Units::kInch || units == Units::kInchGeometry; };
-    const bool start = inch(source_.start.units);
     return std::ranges::any_of(module_.words.All(), [&](const Word& word) {
-      return word.op == WordOp::kUnits && inch(static_cast<Units>(word.index)) != start;
+      return word.op == WordOp::kUnits && word.index != static_cast<std::uint8_t>(source_.start.units);
     });
   }
 

@@ -182,6 +182,15 @@ TEST_CASE("ir modal_state: a call leaves what the callee does not touch") {
   CHECK(a.flow->Entry(ProgramId{std::size_t{1}}).motion == Motion::kRapid);
 }
 
+TEST_CASE("ir modal_state: later passes of a call start with what the first one left") {
+  Analysis a(
+      "program P main\n@- : plane xy\n@- : call name S calls S passes 2\n@- : call name T calls T\n"
+      "program S sub\n@- : axis X = 1\n@- : plane zx\nprogram T sub\n@- : plane yz\n");
+  a.Run();
+  CHECK(a.Before(1, 0).plane == Plane::kUnknown);
+  CHECK(a.Before(2, 0).plane == Plane::kZX);
+}
+
 TEST_CASE("ir modal_state: SAVE gives the caller its modes back") {
   Analysis a(
       "program P main\n@- : call name S calls S\n@-\nprogram S sub saves-modal-state\n@- : plane zx; motion rapid\n");

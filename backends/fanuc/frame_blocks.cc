@@ -69,6 +69,20 @@ bool HasWord(std::string_view line, std::string_view word) {
   return false;
 }
 
+/// The lines that hold G words alone: those that move, or turn the work, are no modes.
+std::string ModesOf(const std::vector<std::string>& lines) {
+  std::string modes;
+  for (const std::string& line : lines) {
+    bool others = false;
+    for (std::size_t at = 0; at < line.size(); ++at)
+      others = others || ((at == 0 || line[at - 1] == ' ') && line[at] != 'G');
+    if (others) continue;
+    if (!modes.empty()) modes += ' ';
+    modes += line;
+  }
+  return modes;
+}
+
 /// Lines of the profile with its own values in their holes, without words of axes that the machine does not have.
 /// NeedFrame has seen to it that the values are known.
 std::vector<std::string> Filled(const dialects::Profile& profile, const std::vector<std::string>& lines) {
@@ -212,8 +226,10 @@ void FrameMainPrograms(const RaiseInput& input, Translation& out) {
     if (!leave.empty()) head.push_back(leave);
   }
   if (!feed_word.empty()) head.push_back(feed_word);
+  bool main = false;
   for (const ir::ProgramId program : module.programs.Ids()) {
     if (module.programs[program].kind != ir::ProgramKind::kMain) continue;
+    main = true;
     ProgramEditor editor(module, program, "frame");
     const IdRange<BlockId> blocks = module.programs[program].blocks;
     BlockId first, end;
@@ -229,6 +245,11 @@ void FrameMainPrograms(const RaiseInput& input, Translation& out) {
       for (const std::string& line : footer) editor.InsertBefore(end, AddedBlock(module, editor, end, line));
     }
     editor.Apply();
+  }
+  if (!main) {
+    // All positions are absolute and metric: no word says so where no main program is.
+    out.assumptions.push_back(fmt::format("where this program is called these are in force: {}", ModesOf(head)));
+    return;
   }
   if (!head.empty())
     out.added.push_back(

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <vector>
 
+#include "ir/block_words.h"
 #include "ir/builder.h"
+#include "ir/make_word.h"
 #include "ir/transform/program_editor.h"
 
 namespace ncport::app {
@@ -55,8 +57,7 @@ void CommentsInFront(Module& module) {
 void Stop(const Context& context, Module& module, BlockId id, const std::vector<Word>& words) {
   const SourceRange at = module.RangeOf(module.blocks[id]);
   Block& block = module.blocks[id];
-  block.words = {static_cast<std::uint32_t>(module.words.Size()), static_cast<std::uint32_t>(words.size())};
-  for (const Word& word : words) module.words.Add(word);
+  ir::SetWords(module, block, words);
   ir::Comment comment;
   comment.text = module.strings.Intern(fmt::format("{}{}", kMark, context.files.Line(at.file, at.line)));
   comment.place = ir::CommentPlace::kEndOfBlock;
@@ -65,14 +66,8 @@ void Stop(const Context& context, Module& module, BlockId id, const std::vector<
 }
 
 Word AlarmWord(Module& module) {
-  ir::ExprBuilder make(module);
-  Word word;
-  word.op = WordOp::kAlarm;
-  word.phase = ir::DefaultPhaseOf(WordOp::kAlarm);
-  word.index = static_cast<std::uint8_t>(ir::AlarmKind::kStops);
-  word.value = make.Literal(backends::kStopAlarm, ir::Type::kInt);
-  word.extra = Id<void>::kNone;
-  return word;
+  const ir::ExprId alarm = ir::ExprBuilder(module).Literal(backends::kStopAlarm, ir::Type::kInt);
+  return ir::MakeWord(WordOp::kAlarm, ir::AlarmKind::kStops, alarm);
 }
 
 }  // namespace

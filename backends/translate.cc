@@ -10,6 +10,7 @@
 #include "backends/sinumerik/write.h"
 #include "base/result.h"
 #include "ir/builder.h"
+#include "ir/make_word.h"
 #include "ir/verify.h"
 
 namespace ncport::backends {
@@ -100,25 +101,15 @@ dialects::Profile ForReading(const dialects::Profile& to) {
 }
 
 std::vector<ir::Word> StopWords(const dialects::Profile& to, ir::Module& module) {
-  ir::Word word;
   if (to.language == dialects::Language::kFanuc) {
     // As text: what follows keeps the modes of the source, as if the block had done nothing.
     const std::uint32_t number = to.fanuc.alarms.Known() ? to.fanuc.alarms->last : 999;
-    word.op = ir::WordOp::kInert;
-    word.phase = ir::DefaultPhaseOf(word.op);
+    ir::Word word = ir::MakeWord(ir::WordOp::kInert);
     word.spelling = ir::AddSpelling(module, fmt::format("#3000={}(NOT*TRANSLATED)", number), "");
     return {word};
   }
-  ir::ExprBuilder make(module);
-  word.op = ir::WordOp::kAlarm;
-  word.phase = ir::DefaultPhaseOf(word.op);
-  word.index = static_cast<std::uint8_t>(ir::AlarmKind::kStops);
-  word.value = make.Literal(kStopAlarm, ir::Type::kInt);
-  word.extra = Id<void>::kNone;
-  ir::Word stop;
-  stop.op = ir::WordOp::kStop;
-  stop.phase = ir::DefaultPhaseOf(stop.op);
-  return {word, stop};
+  const ir::ExprId alarm = ir::ExprBuilder(module).Literal(kStopAlarm, ir::Type::kInt);
+  return {ir::MakeWord(ir::WordOp::kAlarm, ir::AlarmKind::kStops, alarm), ir::MakeWord(ir::WordOp::kStop)};
 }
 
 std::vector<OutputFile> Print(const dialects::Profile& to, const Translation& translation,

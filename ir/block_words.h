@@ -1,5 +1,8 @@
-// Looking for words in a block.
+// Looking for words in a block, and giving it others.
 #pragma once
+
+#include <cstdint>
+#include <span>
 
 #include "ir/module.h"
 
@@ -15,6 +18,12 @@ inline const Word* FindWord(const Module& module, const Block& block, WordOp op)
 
 inline bool HasWord(const Module& module, const Block& block, WordOp op) {
   return FindWord(module, block, op) != nullptr;
+}
+
+/// Puts `words` behind each other at the end of the word store and gives the block their range.
+inline void SetWords(Module& module, Block& block, std::span<const Word> words) {
+  block.words = {static_cast<std::uint32_t>(module.words.Size()), static_cast<std::uint32_t>(words.size())};
+  for (const Word& word : words) module.words.Add(word);
 }
 
 }  // namespace ncport::ir

@@ -5,6 +5,7 @@
 
 #include "base/number_text.h"
 #include "base/result.h"
+#include "ir/block_words.h"
 
 namespace ncport::ir {
 
@@ -221,8 +222,7 @@ BlockBuilder& BlockBuilder::For(ExprId variable, ExprId start, ExprId end, ExprI
 }
 
 BlockId BlockBuilder::Finish() {
-  block_.words = {static_cast<std::uint32_t>(module_.words.Size()), static_cast<std::uint32_t>(words_.size())};
-  for (const Word& word : words_) module_.words.Add(word);
+  SetWords(module_, block_, words_);
   block_.comments = {static_cast<std::uint32_t>(module_.comments.Size()), static_cast<std::uint32_t>(comments_.size())};
   for (const ir::Comment& comment : comments_) module_.comments.Add(comment);
   return module_.blocks.Add(block_);

@@ -8,6 +8,7 @@
 #include "ir/analysis/call_graph.h"
 #include "ir/analysis/cfg.h"
 #include "ir/analysis/modal_state.h"
+#include "ir/make_word.h"
 #include "ir/transform/program_editor.h"
 
 namespace ncport::backends::fanuc {
@@ -26,10 +27,7 @@ using ir::transform::ProgramEditor;
 using Counts = dialects::FanucSettings::Dwell;
 
 Word FeedModeWord(FeedMode mode) {
-  Word word;
-  word.op = WordOp::kFeedMode;
-  word.index = static_cast<std::uint8_t>(mode);
-  word.phase = ir::DefaultPhaseOf(word.op);
+  Word word = ir::MakeWord(WordOp::kFeedMode, mode);
   word.flags = Word::kAdded;
   return word;
 }

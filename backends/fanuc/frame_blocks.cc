@@ -7,11 +7,13 @@
 #include <string>
 #include <string_view>
 
+#include "backends/fanuc/text_word.h"
 #include "dialects/fanuc/words.h"
 #include "ir/analysis/call_graph.h"
 #include "ir/analysis/cfg.h"
 #include "ir/analysis/modal_state.h"
 #include "ir/builder.h"
+#include "ir/make_word.h"
 #include "ir/transform/linear_form.h"
 #include "ir/transform/program_editor.h"
 #include "ir/transform/word_exprs.h"
@@ -29,20 +31,13 @@ using ir::transform::ProgramEditor;
 
 constexpr std::string_view kSafeZ = "{safe-z}", kB = "{b}";
 
-Word TextWord(Module& module, std::string_view text) {
-  Word word;
-  word.op = WordOp::kInert;
-  word.phase = ir::DefaultPhaseOf(WordOp::kInert);
-  word.spelling = ir::AddSpelling(module, text, "");
-  word.flags = Word::kAdded;
-  return word;
-}
-
 Block AddedBlock(Module& module, ProgramEditor& editor, BlockId near, std::string_view text) {
   Block block = editor.MakeBlock(near);
   block.indent = 0;
   block.flags = Block::kAdded;
-  editor.SetWords(block, {TextWord(module, text)});
+  Word word = TextWord(module, text);
+  word.flags = Word::kAdded;
+  editor.SetWords(block, {word});
   return block;
 }
 
@@ -390,12 +385,9 @@ void GuardMacros(const RaiseInput& input, Translation& out) {
       jump.target.kind = ir::TargetKind::kNumber;
       jump.target.number = number;
       jump.search = ir::Search::kForwardThenFromStart;
-      Word word;
-      word.op = WordOp::kJump;
-      word.phase = ir::DefaultPhaseOf(WordOp::kJump);
+      Word word = ir::MakeWord(WordOp::kJump, 0, make.Binary(ir::ExprOp::kEqual, make.Cell(space, cell), make.Vacant()),
+                               module.jumps.Add(jump).value);
       word.flags = Word::kAdded;
-      word.extra = module.jumps.Add(jump).value;
-      word.value = make.Binary(ir::ExprOp::kEqual, make.Cell(space, cell), make.Vacant());
       Block block = editor.MakeBlock(first);
       block.flags = Block::kAdded;
       block.indent = 0;
@@ -403,12 +395,9 @@ void GuardMacros(const RaiseInput& input, Translation& out) {
       editor.InsertBefore(first, block);
     }
     const BlockId last = blocks[blocks.count - 1];
-    Word raise;
-    raise.op = WordOp::kAlarm;
-    raise.phase = ir::DefaultPhaseOf(WordOp::kAlarm);
+    const ir::ExprId shown = make.Text("ARGUMENT MISSING");
+    Word raise = ir::MakeWord(WordOp::kAlarm, 0, make.Literal(alarm, ir::Type::kInt), shown.value);
     raise.flags = Word::kAdded;
-    raise.value = make.Literal(alarm, ir::Type::kInt);
-    raise.extra = make.Text("ARGUMENT MISSING").value;
     Block block = editor.MakeBlock(last);
     block.flags = Block::kAdded;
     block.indent = 0;

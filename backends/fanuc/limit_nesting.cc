@@ -4,6 +4,7 @@
 
 #include "backends/fanuc/print_expr.h"
 #include "ir/builder.h"
+#include "ir/make_word.h"
 #include "ir/transform/new_local.h"
 #include "ir/transform/program_editor.h"
 
@@ -97,11 +98,7 @@ class Pass {
     if (BracketDepth(module_, value, false) < levels || levels > 2) return value;
     if (ir::OperandsOf(module_.exprs[value].op) == ir::Operands::kLeaf) return value;
     const ExprId local = make_.Variable(ir::transform::NewLocal(module_, program_, "PART", ir::Type::kReal));
-    Word word;
-    word.op = WordOp::kAssign;
-    word.phase = ir::DefaultPhaseOf(WordOp::kAssign);
-    word.extra = local.value;
-    word.value = value;
+    Word word = ir::MakeAssignment(local, value);
     Block made = editor_.MakeBlock(block);
     made.skip_level = module_.blocks[block].skip_level;  // what it divides by may be zero then
     editor_.SetWords(made, {word});

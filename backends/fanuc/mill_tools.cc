@@ -11,8 +11,10 @@
 #include <string_view>
 #include <vector>
 
+#include "backends/fanuc/text_word.h"
 #include "ir/analysis/forward_flow.h"
 #include "ir/builder.h"
+#include "ir/make_word.h"
 #include "ir/transform/program_editor.h"
 
 namespace ncport::backends::fanuc {
@@ -371,10 +373,7 @@ void Mapper::Rewrite(ProgramId program) {
   ProgramEditor editor(module_, program, "map_mill_tools");
   ir::ExprBuilder make(module_);
   const auto made_word = [&](WordOp op, std::uint8_t index, std::optional<std::uint32_t> value) {
-    Word word;
-    word.op = op;
-    word.index = index;
-    word.phase = ir::DefaultPhaseOf(op);
+    Word word = ir::MakeWord(op, index);
     if (value) word.value = make.Literal(*value, ir::Type::kInt);
     return word;
   };
@@ -503,11 +502,7 @@ void Mapper::Rewrite(ProgramId program) {
       made.label = block.label;
       made.skip_level = block.skip_level;
       made.comments = block.comments;
-      Word text;
-      text.op = WordOp::kInert;
-      text.phase = ir::DefaultPhaseOf(WordOp::kInert);
-      text.spelling = ir::AddSpelling(module_, call, "");
-      editor.SetWords(made, {text});
+      editor.SetWords(made, {TextWord(module_, call)});
       module_.blocks[id].comments = {};
       module_.blocks[id].label = {};
       module_.blocks[id].number = Block::kNoNumber;

@@ -5,6 +5,7 @@
 #include "ir/analysis/call_graph.h"
 #include "ir/analysis/cfg.h"
 #include "ir/analysis/modal_state.h"
+#include "ir/make_word.h"
 #include "ir/transform/program_editor.h"
 
 namespace ncport::backends::fanuc {
@@ -19,9 +20,7 @@ using ir::WordOp;
 using ir::analysis::ModalFlow;
 
 Word Cancel() {
-  Word word;
-  word.op = WordOp::kModalCall;
-  word.phase = ir::DefaultPhaseOf(WordOp::kModalCall);
+  Word word = ir::MakeWord(WordOp::kModalCall);
   word.flags = Word::kAdded;
   return word;
 }

@@ -32,6 +32,7 @@
 #include "backends/fanuc/word_digits.h"
 #include "dialects/fanuc/words.h"
 #include "dialects/machine.h"
+#include "ir/block_words.h"
 #include "ir/enum_names.h"
 #include "ir/transform/absolute_dimensions.h"
 #include "ir/transform/feeds_to_numbers.h"
@@ -322,13 +323,6 @@ bool CheckLegal(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   return ok;
 }
 
-bool Has(const Module& module, const ir::Block& block, WordOp op) {
-  for (const ir::WordId id : block.words) {
-    if (module.words[id].op == op) return true;
-  }
-  return false;
-}
-
 /// Modes that a target without words for them has always: the words go.
 void DropForeignModes(const RaiseInput& input, Translation& out) {
   Module& module = out.module;
@@ -342,7 +336,8 @@ void DropForeignModes(const RaiseInput& input, Translation& out) {
         // Exact stop and path control are a listed loss where the target has no word (contracts section 3).
         const bool path = word.op == WordOp::kPathMode || word.op == WordOp::kExactOnce;
         // The code of a dwell: the target's words for the seconds have their own.
-        if (word.op == WordOp::kInert && word.phase == ir::Phase::kMotion && Has(module, block, WordOp::kDwellSeconds))
+        if (word.op == WordOp::kInert && word.phase == ir::Phase::kMotion &&
+            ir::HasWord(module, block, WordOp::kDwellSeconds))
           continue;
         const bool known = dialects::fanuc::Codes(system).FindMeaning(word.op, word.index) != nullptr;
         if (path && !known) {
@@ -353,8 +348,7 @@ void DropForeignModes(const RaiseInput& input, Translation& out) {
         }
       }
       if (kept.size() == block.words.count) continue;
-      block.words = {static_cast<std::uint32_t>(module.words.Size()), static_cast<std::uint32_t>(kept.size())};
-      for (const Word& word : kept) module.words.Add(word);
+      ir::SetWords(module, block, kept);
     }
   }
 }

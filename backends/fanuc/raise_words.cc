@@ -10,11 +10,14 @@
 #include <utility>
 
 #include "backends/fanuc/message_text.h"
+#include "backends/fanuc/text_word.h"
 #include "backends/fanuc/tool_flow.h"
 #include "ir/analysis/call_graph.h"
 #include "ir/analysis/cfg.h"
 #include "ir/analysis/modal_state.h"
+#include "ir/block_words.h"
 #include "ir/builder.h"
+#include "ir/make_word.h"
 #include "ir/transform/linear_form.h"
 #include "ir/transform/program_editor.h"
 
@@ -32,14 +35,6 @@ using ir::Word;
 using ir::WordId;
 using ir::WordOp;
 using ir::transform::ProgramEditor;
-
-Word TextWord(Module& module, std::string_view text) {
-  Word word;
-  word.op = WordOp::kInert;
-  word.phase = ir::DefaultPhaseOf(WordOp::kInert);
-  word.spelling = ir::AddSpelling(module, text, "");
-  return word;
-}
 
 /// Takes words out of a block and gives it a comment instead.
 class CommentMaker {
@@ -174,9 +169,7 @@ void TextsToComments(const RaiseInput&, Translation& out, diag::Sink& sink) {
         if (kept.empty() && block.comments.Empty()) {
           maker.Remove(id);
         } else {
-          module.blocks[id].words = {static_cast<std::uint32_t>(module.words.Size()),
-                                     static_cast<std::uint32_t>(kept.size())};
-          for (const Word& word : kept) module.words.Add(word);
+          ir::SetWords(module, module.blocks[id], kept);
         }
       }
     }
@@ -360,13 +353,9 @@ bool MapTools(const RaiseInput& input, Translation& out, diag::Sink& sink) {
         ok = false;
       }
       if (lathe && work_offset.known && work_offset.number != 0 && tool != nullptr) {
-        Word offset;
-        offset.op = WordOp::kWorkOffset;
-        offset.phase = ir::DefaultPhaseOf(WordOp::kWorkOffset);
-        offset.extra = work_offset.number;
         Block again = editor.MakeBlock(id);
         again.flags = Block::kAdded;
-        editor.SetWords(again, {offset});
+        editor.SetWords(again, {ir::MakeWord(WordOp::kWorkOffset, 0, {}, work_offset.number)});
         editor.InsertBefore(id, again);
       }
       if (kept.empty()) {
@@ -466,8 +455,7 @@ bool MapAuxiliaries(const RaiseInput& input, Translation& out, diag::Sink& sink)
         out.aux.push_back(use);
       }
       if (!changed) continue;
-      block.words = {static_cast<std::uint32_t>(module.words.Size()), static_cast<std::uint32_t>(kept.size())};
-      for (const Word& word : kept) module.words.Add(word);
+      ir::SetWords(module, block, kept);
       module.blocks[id].words = block.words;
     }
   }
@@ -526,19 +514,11 @@ bool ArrangeSpindle(const RaiseInput& input, Translation& out, diag::Sink& sink)
                       "the programs that lead here leave it open");
           ok = false;
         } else {
-          Word mode;
-          mode.op = WordOp::kSpeedMode;
-          mode.index = static_cast<std::uint8_t>(state.speed_mode);
-          mode.phase = ir::DefaultPhaseOf(WordOp::kSpeedMode);
-          spindle.insert(spindle.begin(), mode);
+          spindle.insert(spindle.begin(), ir::MakeWord(WordOp::kSpeedMode, state.speed_mode));
         }
       }
       if (surface && input.source_machine->surface_speed_per_revolution && !has_feed_mode) {
-        Word mode;
-        mode.op = WordOp::kFeedMode;
-        mode.index = static_cast<std::uint8_t>(ir::FeedMode::kPerRevolution);
-        mode.phase = ir::DefaultPhaseOf(WordOp::kFeedMode);
-        rest.insert(rest.begin(), mode);
+        rest.insert(rest.begin(), ir::MakeWord(WordOp::kFeedMode, ir::FeedMode::kPerRevolution));
       }
       const std::string r_word = profile.spindle.r_word.Or("");
       const bool r_everywhere = profile.machine_class.Is(dialects::MachineClass::kQuickTurn);
@@ -613,15 +593,9 @@ void NameMotions(const RaiseInput& input, Translation& out) {
         running = ir::Motion::kUnknown;
       const ir::Motion motion = flow.At(program, id).motion;
       if (moves && !named && motion != running && motion != ir::Motion::kUnknown) {
-        std::vector<Word> words;
-        Word word;
-        word.op = WordOp::kMotion;
-        word.index = static_cast<std::uint8_t>(motion);
-        word.phase = ir::DefaultPhaseOf(WordOp::kMotion);
-        words.push_back(word);
+        std::vector<Word> words{ir::MakeWord(WordOp::kMotion, motion)};
         for (const WordId word_id : block.words) words.push_back(module.words[word_id]);
-        block.words = {static_cast<std::uint32_t>(module.words.Size()), static_cast<std::uint32_t>(words.size())};
-        for (const Word& each : words) module.words.Add(each);
+        ir::SetWords(module, block, words);
       }
       if (moves || named) running = motion;
       if (leaves || block.skip_level != Block::kNoSkip) running = ir::Motion::kUnknown;

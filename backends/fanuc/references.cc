@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "ir/builder.h"
+#include "ir/make_word.h"
 #include "ir/transform/program_editor.h"
 
 namespace ncport::backends::fanuc {
@@ -16,10 +17,7 @@ using ir::WordId;
 using ir::WordOp;
 
 Word DistanceWord(ir::Distance distance) {
-  Word word;
-  word.op = WordOp::kDistance;
-  word.index = static_cast<std::uint8_t>(distance);
-  word.phase = ir::DefaultPhaseOf(word.op);
+  Word word = ir::MakeWord(WordOp::kDistance, distance);
   word.flags = Word::kAdded;
   return word;
 }

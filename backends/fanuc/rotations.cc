@@ -11,7 +11,9 @@
 #include "ir/analysis/call_graph.h"
 #include "ir/analysis/cfg.h"
 #include "ir/analysis/modal_state.h"
+#include "ir/block_words.h"
 #include "ir/builder.h"
+#include "ir/make_word.h"
 #include "ir/transform/frame_flow.h"
 #include "ir/transform/linear_form.h"
 #include "ir/transform/new_local.h"
@@ -53,13 +55,6 @@ struct Flows {
   ir::transform::FrameFlow frames;
 };
 
-const Word* Find(const Module& module, const Block& block, WordOp op) {
-  for (const WordId id : block.words) {
-    if (module.words[id].op == op) return &module.words[id];
-  }
-  return nullptr;
-}
-
 FrameOp OpOf(const Word& frame) { return static_cast<FrameOp>(frame.index); }
 
 double Rounded(double degrees) { return std::round(degrees * 1e6) / 1e6; }
@@ -100,11 +95,7 @@ std::optional<Values> ValuesOf(const Module& module, const Block& block, FrameOp
 }
 
 Word MadeWord(WordOp op, std::uint8_t index, ExprId value, std::uint8_t flags = 0) {
-  Word word;
-  word.op = op;
-  word.index = index;
-  word.phase = ir::DefaultPhaseOf(op);
-  word.value = value;
+  Word word = ir::MakeWord(op, index, value);
   word.flags = flags;
   if (op == WordOp::kAxis) word.mode = ir::ValueMode::kAbsolute;
   return word;
@@ -134,7 +125,7 @@ bool RotationsAreNative(const RaiseInput& input, const Translation& out) {
       const Block& block = module.blocks[id];
       const FrameState before = flows.frames.Before(program, id);
       const ir::ModalState state = flows.modes.At(program, id);
-      if (const Word* frame = Find(module, block, WordOp::kFrame)) {
+      if (const Word* frame = ir::FindWord(module, block, WordOp::kFrame)) {
         const FrameOp op = OpOf(*frame);
         if (!Shifts(op) && !Rotates(op) && op != FrameOp::kReset) return false;
         if ((holder.Valid() && holder != program) || module.programs[program].kind != ir::ProgramKind::kMain)
@@ -193,7 +184,7 @@ void RotationsToNative(const RaiseInput& input, Translation& out) {
   bool adds_shift = false;
   for (const ProgramId program : module.programs.Ids()) {
     for (const BlockId id : module.programs[program].blocks) {
-      const Word* frame = Find(module, module.blocks[id], WordOp::kFrame);
+      const Word* frame = ir::FindWord(module, module.blocks[id], WordOp::kFrame);
       if (frame == nullptr) continue;
       holder = program;
       adds_shift = adds_shift || OpOf(*frame) == FrameOp::kAddTranslate;
@@ -202,7 +193,7 @@ void RotationsToNative(const RaiseInput& input, Translation& out) {
   // Numbers that the flow knows everywhere need no local.
   bool held_angle = false;
   for (const BlockId id : module.programs[holder].blocks) {
-    if (Find(module, module.blocks[id], WordOp::kFrame) != nullptr)
+    if (ir::FindWord(module, module.blocks[id], WordOp::kFrame) != nullptr)
       held_angle = held_angle || flows.frames.After(holder, id).kind != FrameState::Kind::kKnown;
   }
   ir::ExprBuilder make(module);
@@ -236,11 +227,11 @@ void RotationsToNative(const RaiseInput& input, Translation& out) {
         words.push_back(MadeWord(WordOp::kAxis, axis, values[axis].Valid() ? values[axis] : make.Literal(0)));
       return words;
     };
-    const Word* found = Find(module, block, WordOp::kFrame);
+    const Word* found = ir::FindWord(module, block, WordOp::kFrame);
     if (found == nullptr) {
       std::vector<std::vector<Word>> ends;
       // The source forgets its frames at the end of the program, the target need not.
-      if (Find(module, block, WordOp::kProgramEnd) != nullptr) {
+      if (ir::FindWord(module, block, WordOp::kProgramEnd) != nullptr) {
         ends.push_back({FrameOf(FrameOp::kRotateEnd)});
         ends.push_back(local_shift({}));
       }

@@ -15,6 +15,7 @@
 #include "ir/analysis/modal_state.h"
 #include "ir/analysis/unwritten_cells.h"
 #include "ir/builder.h"
+#include "ir/make_word.h"
 #include "ir/transform/linear_form.h"
 #include "ir/transform/new_local.h"
 #include "ir/transform/program_editor.h"
@@ -47,21 +48,8 @@ const Word* FrameWord(const Module& module, BlockId id) {
 bool Adds(const Word& frame) { return frame.index == static_cast<std::uint8_t>(FrameOp::kAddTranslate); }
 
 Word AxisWord(std::uint8_t axis, ExprId value) {
-  Word word;
-  word.op = WordOp::kAxis;
-  word.index = axis;
+  Word word = ir::MakeWord(WordOp::kAxis, axis, value);
   word.mode = ir::ValueMode::kAbsolute;
-  word.phase = ir::DefaultPhaseOf(WordOp::kAxis);
-  word.value = value;
-  return word;
-}
-
-Word Assignment(ExprId place, ExprId value) {
-  Word word;
-  word.op = WordOp::kAssign;
-  word.phase = ir::DefaultPhaseOf(WordOp::kAssign);
-  word.extra = place.value;
-  word.value = value;
   return word;
 }
 
@@ -185,7 +173,7 @@ bool ShiftsToLocal(const RaiseInput& input, Translation& out, diag::Sink& sink) 
         for (std::uint8_t axis = 0; axis < kLinearAxes; ++axis) {
           if (!sums[axis].Valid()) continue;
           Block start = editor.MakeBlock(id);
-          editor.SetWords(start, {Assignment(make.Variable(sums[axis]), make.Literal(0))});
+          editor.SetWords(start, {ir::MakeAssignment(make.Variable(sums[axis]), make.Literal(0))});
           editor.InsertBefore(id, start);
         }
       }
@@ -195,10 +183,7 @@ bool ShiftsToLocal(const RaiseInput& input, Translation& out, diag::Sink& sink) 
         bool end = false;
         for (const WordId word : block.words) end = end || module.words[word].op == WordOp::kProgramEnd;
         if (!end || module.programs[program].kind != ir::ProgramKind::kMain) continue;
-        Word frame;
-        frame.op = WordOp::kFrame;
-        frame.index = static_cast<std::uint8_t>(FrameOp::kTranslate);
-        frame.phase = ir::DefaultPhaseOf(WordOp::kFrame);
+        Word frame = ir::MakeWord(WordOp::kFrame, FrameOp::kTranslate);
         frame.flags = Word::kAdded;
         std::vector<Word> words{frame};
         for (std::uint8_t axis = 0; axis < kLinearAxes; ++axis) {
@@ -251,7 +236,7 @@ bool ShiftsToLocal(const RaiseInput& input, Translation& out, diag::Sink& sink) 
           module.blocks[id].number = Block::kNoNumber;
           first = false;
         }
-        editor.SetWords(assign, {Assignment(make.Variable(sums[axis]), sum_value)});
+        editor.SetWords(assign, {ir::MakeAssignment(make.Variable(sums[axis]), sum_value)});
         editor.InsertBefore(id, assign);
       }
       Block changed = module.blocks[id];

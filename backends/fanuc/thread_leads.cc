@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "ir/analysis/forward_flow.h"
+#include "ir/block_words.h"
 #include "ir/builder.h"
+#include "ir/make_word.h"
 
 namespace ncport::backends::fanuc {
 
@@ -119,14 +121,10 @@ void Leads::Name(BlockId id, ir::ExprId feed) {
   ir::Block& block = module_.blocks[id];
   std::vector<Word> words;
   for (const WordId word : block.words) words.push_back(module_.words[word]);
-  Word made;
-  made.op = WordOp::kFeed;
-  made.value = feed;
-  made.phase = ir::DefaultPhaseOf(WordOp::kFeed);
+  Word made = ir::MakeWord(WordOp::kFeed, 0, feed);
   made.flags = Word::kAdded;
   words.push_back(made);
-  block.words = {static_cast<std::uint32_t>(module_.words.Size()), static_cast<std::uint32_t>(words.size())};
-  for (const Word& word : words) module_.words.Add(word);
+  ir::SetWords(module_, block, words);
 }
 
 ir::ExprId Leads::Negated(ir::ExprId value) {

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "backends/fanuc/text_word.h"
 #include "ir/analysis/forward_flow.h"
 #include "ir/builder.h"
 #include "ir/transform/program_editor.h"
@@ -71,13 +72,6 @@ class Pass {
   void Refuse(const Block& block, std::string_view what, std::string_view help) {
     ok_ = false;
     sink_.Report(diag::Code::kNotExpressible, module_.RangeOf(block), what, input_.profile->name).help = help;
-  }
-  [[nodiscard]] Word Text(std::string_view text) {
-    Word word;
-    word.op = WordOp::kInert;
-    word.phase = ir::DefaultPhaseOf(WordOp::kInert);
-    word.spelling = ir::AddSpelling(module_, text, "");
-    return word;
   }
 
   const RaiseInput& input_;
@@ -165,14 +159,14 @@ void Pass::Rewrite(ProgramId program) {
              "move to the work in front of the modal call");
       continue;
     }
-    second.insert(second.begin(), Text("G43 P1"));
-    second.push_back(Text("H#3020"));
+    second.insert(second.begin(), TextWord(module_, "G43 P1"));
+    second.push_back(TextWord(module_, "H#3020"));
     if (!other_axis) {
       // Z alone: Y is named with it, for its offset comes in here too.
-      if (has_y_) second.insert(second.begin() + 1, Text("Y0."));
+      if (has_y_) second.insert(second.begin() + 1, TextWord(module_, "Y0."));
       first.insert(first.end(), second.begin(), second.end());
     } else if (has_y_) {
-      first.push_back(Text("Y0."));
+      first.push_back(TextWord(module_, "Y0."));
     }
     Block changed = block;
     editor.SetWords(changed, first);

@@ -11,6 +11,7 @@
 #include "ir/analysis/cfg.h"
 #include "ir/analysis/modal_state.h"
 #include "ir/builder.h"
+#include "ir/make_word.h"
 #include "ir/transform/program_editor.h"
 
 namespace ncport::backends::sinumerik {
@@ -212,21 +213,13 @@ class Pass {
     if (via.empty() || at.motion == ir::Motion::kUnknown || block.skip_level != Block::kNoSkip) {
       return Refuse(block, module_.words[block.words[0]], "this move to the reference point");
     }
-    const auto mode = [](WordOp op, std::uint8_t index) {
-      Word word;
-      word.op = op;
-      word.index = index;
-      word.phase = ir::DefaultPhaseOf(op);
-      return word;
-    };
     std::vector<Word> first = other;
-    first.push_back(mode(WordOp::kMotion, static_cast<std::uint8_t>(ir::Motion::kRapid)));
+    first.push_back(ir::MakeWord(WordOp::kMotion, ir::Motion::kRapid));
     first.insert(first.end(), via.begin(), via.end());
-    Word number = mode(WordOp::kInert, 0);
+    Word number = ir::MakeWord(WordOp::kInert);
     number.spelling = ir::AddSpelling(module_, "FP", "sinumerik-8.2");
     number.value = make_.Number("1", ir::Type::kInt);
-    point.insert(point.begin(),
-                 {mode(WordOp::kReference, static_cast<std::uint8_t>(ir::ReferenceKind::kFixedPoint)), number});
+    point.insert(point.begin(), {ir::MakeWord(WordOp::kReference, ir::ReferenceKind::kFixedPoint), number});
     Block changed = block;
     editor.SetWords(changed, first);
     module_.blocks[id].words = changed.words;
@@ -236,7 +229,7 @@ class Pass {
       editor.InsertAfter(id, made);
     };
     insert(point);
-    if (at.motion != ir::Motion::kRapid) insert({mode(WordOp::kMotion, static_cast<std::uint8_t>(at.motion))});
+    if (at.motion != ir::Motion::kRapid) insert({ir::MakeWord(WordOp::kMotion, at.motion)});
     Assume("G75 goes to fixed point 1, which must be the reference point of the source machine (sinumerik-8.2)");
   }
 

@@ -8,6 +8,7 @@
 #include "ir/analysis/cfg.h"
 #include "ir/analysis/modal_state.h"
 #include "ir/builder.h"
+#include "ir/make_word.h"
 #include "ir/transform/linear_form.h"
 #include "ir/transform/program_editor.h"
 
@@ -26,13 +27,7 @@ using ir::WordId;
 using ir::WordOp;
 using ir::transform::ProgramEditor;
 
-Word FrameWord(FrameOp op) {
-  Word word;
-  word.op = WordOp::kFrame;
-  word.index = static_cast<std::uint8_t>(op);
-  word.phase = ir::DefaultPhaseOf(WordOp::kFrame);
-  return word;
-}
+Word FrameWord(FrameOp op) { return ir::MakeWord(WordOp::kFrame, op); }
 
 class Pass {
  public:

@@ -15,6 +15,7 @@
 
 #include "ir/analysis/forward_flow.h"
 #include "ir/builder.h"
+#include "ir/make_word.h"
 #include "ir/transform/program_editor.h"
 
 namespace ncport::backends::sinumerik {
@@ -337,13 +338,7 @@ class Pass {
 
   // --- the text
 
-  Word EdgeWord(std::uint32_t edge) {
-    Word word;
-    word.op = WordOp::kEdge;
-    word.phase = ir::DefaultPhaseOf(WordOp::kEdge);
-    word.value = make_.Literal(edge, ir::Type::kInt);
-    return word;
-  }
+  Word EdgeWord(std::uint32_t edge) { return ir::MakeWord(WordOp::kEdge, 0, make_.Literal(edge, ir::Type::kInt)); }
 
   void Map(ir::ProgramId program) {
     ProgramEditor editor(module_, program, "map_tools");

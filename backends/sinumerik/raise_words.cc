@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "ir/block_words.h"
 #include "ir/builder.h"
 #include "ir/transform/program_editor.h"
 
@@ -277,9 +278,7 @@ bool MapAuxiliaries(const RaiseInput& input, Translation& out, diag::Sink& sink)
         out.aux.push_back(use);
       }
       if (!changed) continue;
-      module.blocks[id].words = {static_cast<std::uint32_t>(module.words.Size()),
-                                 static_cast<std::uint32_t>(kept.size())};
-      for (const Word& word : kept) module.words.Add(word);
+      ir::SetWords(module, module.blocks[id], kept);
     }
   }
   return ok;

@@ -5,6 +5,7 @@
 #include "ir/analysis/call_graph.h"
 #include "ir/analysis/cfg.h"
 #include "ir/analysis/modal_state.h"
+#include "ir/make_word.h"
 #include "ir/transform/program_editor.h"
 
 namespace ncport::backends::sinumerik {
@@ -18,19 +19,6 @@ using ir::Word;
 using ir::WordId;
 using ir::WordOp;
 using ir::transform::ProgramEditor;
-
-Word MakeWord(WordOp op, std::uint8_t index, std::uint32_t extra = Id<void>::kNone) {
-  Word word;
-  word.op = op;
-  word.index = index;
-  word.phase = ir::DefaultPhaseOf(op);
-  word.extra = extra;
-  return word;
-}
-template <class Mode>
-Word ModeWord(WordOp op, Mode mode) {
-  return MakeWord(op, static_cast<std::uint8_t>(mode));
-}
 
 /// `start` without the groups that every program sets before a word hangs on them.
 ir::ModalState ReliedOn(const RaiseInput& input, const Module& module) {
@@ -124,16 +112,16 @@ void WriteStartModes(const RaiseInput& input, Translation& out, bool only_relied
   const ir::ModalState start = only_relied_on ? ReliedOn(input, module) : input.source_machine->start;
   // G97 and G94 are of one group (15): the feed comes last, and leaves the speed constant.
   std::vector<Word> speed, modes;
-  if (start.speed_mode != ir::SpeedMode::kUnknown) speed.push_back(ModeWord(WordOp::kSpeedMode, start.speed_mode));
-  if (start.motion != ir::Motion::kUnknown) modes.push_back(ModeWord(WordOp::kMotion, start.motion));
-  if (start.plane != ir::Plane::kUnknown) modes.push_back(ModeWord(WordOp::kPlane, start.plane));
-  if (start.distance != ir::Distance::kUnknown) modes.push_back(ModeWord(WordOp::kDistance, start.distance));
-  if (start.feed_mode != ir::FeedMode::kUnknown) modes.push_back(ModeWord(WordOp::kFeedMode, start.feed_mode));
-  if (start.comp != ir::CutterComp::kUnknown) modes.push_back(ModeWord(WordOp::kCutterComp, start.comp));
-  if (start.units != ir::Units::kUnknown) modes.push_back(ModeWord(WordOp::kUnits, start.units));
-  if (start.path != ir::PathMode::kUnknown) modes.push_back(ModeWord(WordOp::kPathMode, start.path));
-  if (start.work_offset.known) modes.push_back(MakeWord(WordOp::kWorkOffset, 0, start.work_offset.number));
-  if (start.diameter != ir::Diameter::kUnknown) modes.push_back(ModeWord(WordOp::kDiameter, start.diameter));
+  if (start.speed_mode != ir::SpeedMode::kUnknown) speed.push_back(ir::MakeWord(WordOp::kSpeedMode, start.speed_mode));
+  if (start.motion != ir::Motion::kUnknown) modes.push_back(ir::MakeWord(WordOp::kMotion, start.motion));
+  if (start.plane != ir::Plane::kUnknown) modes.push_back(ir::MakeWord(WordOp::kPlane, start.plane));
+  if (start.distance != ir::Distance::kUnknown) modes.push_back(ir::MakeWord(WordOp::kDistance, start.distance));
+  if (start.feed_mode != ir::FeedMode::kUnknown) modes.push_back(ir::MakeWord(WordOp::kFeedMode, start.feed_mode));
+  if (start.comp != ir::CutterComp::kUnknown) modes.push_back(ir::MakeWord(WordOp::kCutterComp, start.comp));
+  if (start.units != ir::Units::kUnknown) modes.push_back(ir::MakeWord(WordOp::kUnits, start.units));
+  if (start.path != ir::PathMode::kUnknown) modes.push_back(ir::MakeWord(WordOp::kPathMode, start.path));
+  if (start.work_offset.known) modes.push_back(ir::MakeWord(WordOp::kWorkOffset, 0, {}, start.work_offset.number));
+  if (start.diameter != ir::Diameter::kUnknown) modes.push_back(ir::MakeWord(WordOp::kDiameter, start.diameter));
   bool any = false;
   for (const ir::ProgramId program : module.programs.Ids()) {
     const IdRange<BlockId> blocks = module.programs[program].blocks;

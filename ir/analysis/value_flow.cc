@@ -5,19 +5,14 @@
 #include <functional>
 #include <utility>
 
+#include "ir/block_words.h"
+
 namespace ncport::ir::analysis {
 
 namespace {
 
 constexpr std::uint16_t kVisitsBeforeLandmarks = 3;
 constexpr std::uint16_t kVisitsBeforeInfinity = 9;
-
-bool HasWord(const Module& module, const Block& block, WordOp op) {
-  for (const WordId id : block.words) {
-    if (module.words[id].op == op) return true;
-  }
-  return false;
-}
 
 }  // namespace
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ir/block_words.h"
+#include "ir/make_word.h"
 #include "ir/transform/dimension_pass.h"
 
 namespace ncport::ir::transform {
@@ -325,11 +326,8 @@ void DimensionPass::RewriteWords(BlockId id, const Slots& in) {
   }
   if (plane_words_[IndexOf(id)].Moves() && !LowerPlaneWords(id, in, words)) return;
   if (cut_.contains(id.value) && WordOf(id, WordOp::kMotion) == nullptr) {
-    Word linear;  // the corner in front may be an arc
-    linear.op = WordOp::kMotion;
-    linear.index = static_cast<std::uint8_t>(Motion::kLinear);
-    linear.phase = DefaultPhaseOf(WordOp::kMotion);
-    words.insert(words.begin(), linear);
+    // the corner in front may be an arc
+    words.insert(words.begin(), MakeWord(WordOp::kMotion, Motion::kLinear));
   }
   std::vector<std::vector<Word>> before, after;
   if (HasWord(module_, module_.blocks[id], WordOp::kTurns) && !LowerTurns(id, in, words, before)) return;

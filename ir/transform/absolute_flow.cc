@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ir/block_words.h"
+#include "ir/make_word.h"
 #include "ir/transform/dimension_pass.h"
 #include "ir/transform/new_local.h"
 #include "ir/transform/rewrite_exprs.h"
@@ -161,13 +162,8 @@ void DimensionPass::Save(BlockId id, Slot slot, Slots& slots, bool before, bool 
 void DimensionPass::PutInto(ExprId place, BlockId id, SlotValue& value, bool before, bool emit) {
   const LinearForm there = FormOf(module_, place);
   if (emit && !SameForm(module_, value.form, there)) {
-    Word word;
-    word.op = WordOp::kAssign;
-    word.phase = DefaultPhaseOf(WordOp::kAssign);
-    word.extra = place.value;
-    word.value = ExprOf(module_, value.form);
     Block made = editor_->MakeBlock(id);
-    editor_->SetWords(made, {word});
+    editor_->SetWords(made, {MakeAssignment(place, ExprOf(module_, value.form))});
     if (before) {
       // The new block takes the place that jumps go to.
       Block& block = module_.blocks[id];
@@ -329,13 +325,8 @@ void DimensionPass::SaveEntry(Slots& slots, bool emit) {
     if ((entry_carried_ >> slot & 1U) == 0 || !value.Known()) continue;
     const ExprId held = Held(slot);
     if (emit) {
-      Word word;
-      word.op = WordOp::kAssign;
-      word.phase = DefaultPhaseOf(WordOp::kAssign);
-      word.extra = held.value;
-      word.value = ExprOf(module_, value.form);
       Block made = editor_->MakeBlock(blocks_[0]);
-      editor_->SetWords(made, {word});
+      editor_->SetWords(made, {MakeAssignment(held, ExprOf(module_, value.form))});
       // Behind the head; in front of a block that jumps may come back to, without its label.
       if (HasWord(module_, module_.blocks[blocks_[0]], WordOp::kHeader)) {
         editor_->InsertAfter(blocks_[0], made);

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "ir/make_word.h"
 #include "ir/transform/dimension_pass.h"
 
 namespace ncport::ir::transform {
@@ -356,12 +357,8 @@ bool DimensionPass::ApplyFrame(BlockId id, const Slots& in, std::vector<Word>& w
   }
   if (!arc || !names_senses_) return true;
   std::erase_if(words, [](const Word& word) { return word.op == WordOp::kMotion; });
-  Word sense;
-  sense.op = WordOp::kMotion;
-  sense.phase = DefaultPhaseOf(WordOp::kMotion);
   const bool clockwise = (motion == Motion::kArcCw) != (!frame.untouched && image->mirrored);
-  sense.index = static_cast<std::uint8_t>(clockwise ? Motion::kArcCw : Motion::kArcCcw);
-  words.insert(words.begin(), sense);
+  words.insert(words.begin(), MakeWord(WordOp::kMotion, clockwise ? Motion::kArcCw : Motion::kArcCcw));
   return true;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "ir/analysis/forward_flow.h"
+#include "ir/make_word.h"
 #include "ir/transform/dimension_pass.h"
 
 namespace ncport::ir::transform {
@@ -235,13 +236,7 @@ void DimensionPass::FindKept() {
 
 void DimensionPass::WriteDistanceModes() {
   ProgramEditor editor(module_, program_, "absolute_dimensions");
-  const auto mode = [](Distance distance) {
-    Word word;
-    word.op = WordOp::kDistance;
-    word.index = static_cast<std::uint8_t>(distance);
-    word.phase = DefaultPhaseOf(WordOp::kDistance);
-    return word;
-  };
+  const auto mode = [](Distance distance) { return MakeWord(WordOp::kDistance, distance); };
   const auto prepend = [&](BlockId id, const Word& first) {
     std::vector<Word> words{first};
     for (const WordId word_id : module_.blocks[id].words) words.push_back(module_.words[word_id]);

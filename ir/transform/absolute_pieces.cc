@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "ir/make_word.h"
 #include "ir/transform/dimension_pass.h"
 
 namespace ncport::ir::transform {
@@ -17,13 +18,7 @@ constexpr double kMostTurns = 99;  // that are written out
 
 bool IsArc(Motion motion) { return motion == Motion::kArcCw || motion == Motion::kArcCcw; }
 
-Word MotionWord(Motion motion) {
-  Word word;
-  word.op = WordOp::kMotion;
-  word.index = static_cast<std::uint8_t>(motion);
-  word.phase = DefaultPhaseOf(WordOp::kMotion);
-  return word;
-}
+Word MotionWord(Motion motion) { return MakeWord(WordOp::kMotion, motion); }
 
 void NameMotion(std::vector<Word>& words, Motion motion) {
   if (std::ranges::find(words, WordOp::kMotion, &Word::op) == words.end())

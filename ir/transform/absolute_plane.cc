@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ir/analysis/value_range.h"
+#include "ir/make_word.h"
 #include "ir/transform/dimension_pass.h"
 
 namespace ncport::ir::transform {
@@ -31,12 +32,8 @@ constexpr Plane PlaneWithNormal(std::uint8_t normal) {
 bool IsArc(Motion motion) { return motion == Motion::kArcCw || motion == Motion::kArcCcw; }
 
 Word MadeWord(WordOp op, std::uint8_t index, ValueMode mode, ExprId value) {
-  Word word;
-  word.op = op;
-  word.index = index;
+  Word word = MakeWord(op, index, value);
   word.mode = mode;
-  word.phase = DefaultPhaseOf(op);
-  word.value = value;
   return word;
 }
 

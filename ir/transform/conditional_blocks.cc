@@ -9,20 +9,12 @@
 #include <vector>
 
 #include "ir/builder.h"
+#include "ir/make_word.h"
 #include "ir/transform/program_editor.h"
 
 namespace ncport::ir::transform {
 
 namespace {
-
-Word MakeWord(WordOp op, ExprId value = {}, std::uint32_t extra = Id<void>::kNone) {
-  Word word;
-  word.op = op;
-  word.phase = DefaultPhaseOf(op);
-  word.value = value;
-  word.extra = extra;
-  return word;
-}
 
 class Pass {
  public:
@@ -89,7 +81,7 @@ class Pass {
       const StringId label = NewLabel();
       Jump jump;
       jump.target.label = label;
-      put({MakeWord(WordOp::kJump, make_.Unary(ExprOp::kNot, make_.Unary(ExprOp::kGroup, condition)),
+      put({MakeWord(WordOp::kJump, 0, make_.Unary(ExprOp::kNot, make_.Unary(ExprOp::kGroup, condition)),
                     module_.jumps.Add(jump).value)},
           true);
       put(rest, true);
@@ -97,7 +89,7 @@ class Pass {
       place.label = label;
       editor_.InsertBefore(id, place);
     } else {
-      put({MakeWord(WordOp::kIf, condition)}, false);
+      put({MakeWord(WordOp::kIf, 0, condition)}, false);
       put(rest, true);
       put({MakeWord(WordOp::kEndIf)}, false);
     }

@@ -8,6 +8,7 @@
 
 #include "ir/analysis/forward_flow.h"
 #include "ir/builder.h"
+#include "ir/make_word.h"
 #include "ir/transform/new_local.h"
 #include "ir/transform/program_editor.h"
 
@@ -324,16 +325,7 @@ class Pass {
     if (words.empty()) editor.Remove(id);
   }
 
-  static Word Make(WordOp op, std::uint8_t index = 0, ExprId value = {}, std::uint32_t extra = Id<void>::kNone) {
-    Word word;
-    word.op = op;
-    word.index = index;
-    word.phase = DefaultPhaseOf(op);
-    word.value = value;
-    word.extra = extra;
-    return word;
-  }
-  static Word MotionWord(Motion motion) { return Make(WordOp::kMotion, static_cast<std::uint8_t>(motion)); }
+  static Word MotionWord(Motion motion) { return MakeWord(WordOp::kMotion, motion); }
 
   void Holes(BlockId id, const Block& block, const Parts& parts, const State& state,
              const std::vector<std::pair<ExprId, ExprId>>& assigns, const ModalState& at, std::uint8_t normal,
@@ -375,7 +367,7 @@ class Pass {
     };
     for (const auto& [local, value] : assigns) {
       const ExprId now = value.Valid() ? value : make_.System(config_.position, {make_.AxisName(normal)});
-      put({Make(WordOp::kAssign, 0, now, local.value)});
+      put({MakeAssignment(local, now)});
     }
     if (!parts.geometry && parts.values[kLevel] == nullptr) {
       if (!parts.place.empty()) {
@@ -404,13 +396,13 @@ class Pass {
       if (!first.empty()) put(first);
       first.clear();
       const ExprId turn = make_.Variable(NewLocal(module_, program_, "U_TURN", Type::kReal));
-      put({Make(WordOp::kAssign, 0, make_.Number("0"), turn.value)});
+      put({MakeAssignment(turn, make_.Number("0"))});
       Expr less = module_.exprs[make_.Binary(ExprOp::kLess, turn, make_.Literal(repeats, Type::kInt))];
       less.flags |= Expr::kTolerance;  // whole numbers
-      put({Make(WordOp::kWhile, 0, module_.AddExpr(less))});
+      put({MakeWord(WordOp::kWhile, 0, module_.AddExpr(less))});
       if (!Hole(block, parts, state, at, normal, first, put)) return;
-      put({Make(WordOp::kAssign, 0, make_.Binary(ExprOp::kAdd, turn, make_.Number("1")), turn.value)});
-      put({Make(WordOp::kEndWhile)});
+      put({MakeAssignment(turn, make_.Binary(ExprOp::kAdd, turn, make_.Number("1")))});
+      put({MakeWord(WordOp::kEndWhile)});
     } else if (!Hole(block, parts, state, at, normal, first, put)) {
       return;
     }
@@ -423,7 +415,7 @@ class Pass {
             std::vector<Word> first, const Put& put) {
     const ExprId level{state.fields[kLevel]}, depth{state.fields[kDepth]};
     const auto axis = [&](ExprId value) {
-      Word word = Make(WordOp::kAxis, normal, value);
+      Word word = MakeWord(WordOp::kAxis, normal, value);
       word.mode = at.distance == Distance::kIncremental ? ValueMode::kAbsolute : ValueMode::kModal;
       return word;
     };
@@ -431,7 +423,7 @@ class Pass {
     const auto feed = [&](ExprId value) { put(std::vector<Word>{MotionWord(Motion::kLinear), axis(value)}); };
     const auto back = [&] { rapid(at.return_level == ReturnLevel::kInitial ? Initial() : level); };
     const auto spindle = [&](SpindleState sense) {
-      put(std::vector<Word>{Make(WordOp::kSpindle, 0, {}, static_cast<std::uint32_t>(sense))});
+      put(std::vector<Word>{MakeWord(WordOp::kSpindle, 0, {}, static_cast<std::uint32_t>(sense))});
     };
     const auto pause = [&]() -> bool {
       if (state.fields[kDwell] == kUnset) return true;
@@ -440,7 +432,7 @@ class Pass {
         Refuse(block, "a computed dwell of a cycle");
         return false;
       }
-      if (*seconds > 0) put(std::vector<Word>{Make(WordOp::kDwellSeconds, 0, ExprId{state.fields[kDwell]})});
+      if (*seconds > 0) put(std::vector<Word>{MakeWord(WordOp::kDwellSeconds, 0, ExprId{state.fields[kDwell]})});
       return true;
     };
     const bool inch = at.units == Units::kInch || at.units == Units::kInchGeometry;

@@ -10,6 +10,7 @@
 #include "ir/analysis/number_kinds.h"
 #include "ir/builder.h"
 #include "ir/comparison.h"
+#include "ir/make_word.h"
 #include "ir/transform/conditions.h"
 #include "ir/transform/new_local.h"
 #include "ir/transform/program_editor.h"
@@ -94,15 +95,10 @@ class Lowering {
 };
 
 void Lowering::Statement(WordOp op, ExprId value, std::uint32_t extra) {
-  Word word;
-  word.op = op;
-  word.phase = DefaultPhaseOf(op);
-  word.value = value;
-  word.extra = extra;
   Block made = editor_.MakeBlock(block_);
   // A test is left out with its block too: what it divides by may be zero then.
   made.skip_level = IsStructureMark(op) && op != WordOp::kIf ? Block::kNoSkip : module_.blocks[block_].skip_level;
-  editor_.SetWords(made, {word});
+  editor_.SetWords(made, {MakeWord(op, 0, value, extra)});
   statements_.push_back(made);
 }
 
@@ -379,18 +375,12 @@ void Lowering::LowerWhile(BlockId id) {
     return;
   }
   const std::string label = fmt::format("NCPORT_OUT_{}", ++labels_);
-  Word loop;
-  loop.op = WordOp::kLoop;
-  loop.phase = DefaultPhaseOf(WordOp::kLoop);
-  module_.words[block.words[0]] = loop;
+  module_.words[block.words[0]] = MakeWord(WordOp::kLoop);
   Jump jump;
   jump.target.label = module_.strings.Intern(label);
   jump.search = Search::kForward;
-  Word out;
-  out.op = WordOp::kJump;
-  out.phase = DefaultPhaseOf(WordOp::kJump);
-  out.value = make_.Unary(ExprOp::kNot, make_.Unary(ExprOp::kGroup, condition));
-  out.extra = module_.jumps.Add(jump).value;
+  Word out = MakeWord(WordOp::kJump, 0, make_.Unary(ExprOp::kNot, make_.Unary(ExprOp::kGroup, condition)),
+                      module_.jumps.Add(jump).value);
   Block leave = editor_.MakeBlock(id);
   editor_.SetWords(leave, {out});
   inner.push_back(leave);

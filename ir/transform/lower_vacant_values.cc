@@ -10,6 +10,7 @@
 #include "ir/analysis/call_graph.h"
 #include "ir/analysis/cfg.h"
 #include "ir/builder.h"
+#include "ir/make_word.h"
 #include "ir/transform/linear_form.h"
 #include "ir/transform/program_editor.h"
 #include "ir/transform/rewrite_exprs.h"
@@ -235,13 +236,7 @@ void Pass::Variants(BlockId id, ProgramEditor& editor, const std::vector<Word>& 
     return;
   }
   const std::size_t index = *IndexOf(unsure->value);
-  const auto mark = [](WordOp op, ExprId value = {}) {
-    Word word;
-    word.op = op;
-    word.phase = DefaultPhaseOf(op);
-    word.value = value;
-    return word;
-  };
+  const auto mark = [](WordOp op, ExprId value = {}) { return MakeWord(op, 0, value); };
   put({mark(WordOp::kIf, GivenCell(vacancy_.CellOf(index)))});
   for (const bool there : {true, false}) {
     State known = state;
@@ -335,12 +330,8 @@ void Pass::RewriteBlock(ProgramId program, BlockId id, ProgramEditor& editor) {
     if (word.op != WordOp::kAssign) continue;
     const auto place = IndexOf(word.Extra<ExprId>());
     if (!place || !vacancy_.IsLocal(*place) || !given_.contains(vacancy_.CellOf(*place))) continue;
-    Word truth;
-    truth.op = WordOp::kAssign;
-    truth.phase = DefaultPhaseOf(WordOp::kAssign);
-    truth.extra = GivenCell(vacancy_.CellOf(*place)).value;
-    truth.value = given.Valid() ? given : Truth(bits != kEmpty);
-    words.push_back(truth);
+    const ExprId truth = GivenCell(vacancy_.CellOf(*place));
+    words.push_back(MakeAssignment(truth, given.Valid() ? given : Truth(bits != kEmpty)));
   }
   if (unsure.empty()) {
     Block changed = block;

@@ -11,6 +11,7 @@
 #include "ir/analysis/call_graph.h"
 #include "ir/analysis/cfg.h"
 #include "ir/builder.h"
+#include "ir/make_word.h"
 #include "ir/transform/cell_allocation.h"
 #include "ir/transform/cell_uses.h"
 #include "ir/transform/linear_form.h"
@@ -151,14 +152,7 @@ void NameLowering::LowerDefinitions(ProgramId program, const analysis::Cfg& cfg)
                fmt::format("{}, which keeps its value between the runs of a modal call", module_.View(variable.name)));
         continue;
       }
-      const auto assign = [&](ExprId place, ExprId value) {
-        Word made;
-        made.op = WordOp::kAssign;
-        made.phase = DefaultPhaseOf(WordOp::kAssign);
-        made.extra = place.value;
-        made.value = value;
-        assignments.push_back(made);
-      };
+      const auto assign = [&](ExprId place, ExprId value) { assignments.push_back(MakeAssignment(place, value)); };
       if (variable.dimension_count == 0) {
         assign(make_.Variable(variable_id), variable.initial.Valid() ? variable.initial : make_.Literal(0));
         continue;
@@ -306,13 +300,9 @@ void NameLowering::LowerCalls(ProgramId program) {
         }
         for (std::uint32_t cell = 0; cell < count; ++cell) {
           const auto copy = [&](std::uint32_t to, std::uint32_t from) {
-            Word made;
-            made.op = WordOp::kAssign;
-            made.phase = DefaultPhaseOf(WordOp::kAssign);
-            made.extra = make_.Cell(space_, to).value;
-            made.value = make_.Cell(space_, from);
+            const ExprId place = make_.Cell(space_, to);
             Block copy_block = editor.MakeBlock(id);
-            editor.SetWords(copy_block, {made});
+            editor.SetWords(copy_block, {MakeAssignment(place, make_.Cell(space_, from))});
             return copy_block;
           };
           Block in = copy(home->cell + cell, source.cell + cell);

@@ -11,6 +11,7 @@
 #include "ir/analysis/call_graph.h"
 #include "ir/analysis/index_range.h"
 #include "ir/builder.h"
+#include "ir/make_word.h"
 #include "ir/transform/lower_vacant_values.h"
 #include "ir/transform/new_local.h"
 #include "ir/transform/program_editor.h"
@@ -329,12 +330,7 @@ void Naming::ShareArguments(ProgramId program, BlockId block, Call& call, Progra
       if (module_.args[id].position == key) value = module_.args[id].value;
     }
     const VariableId holder = NewLocal(module_, program, NameOf(key) + "_ARG", type);
-    Word word;
-    word.op = WordOp::kAssign;
-    word.phase = DefaultPhaseOf(WordOp::kAssign);
-    word.extra = make_.Variable(holder).value;
-    word.value = value;
-    words.push_back(word);
+    words.push_back(MakeAssignment(make_.Variable(holder), value));
     Arg arg;
     arg.position = position++;
     arg.value = make_.Variable(holder);
@@ -417,13 +413,7 @@ void Naming::Define(ProgramId program) {
     editor.SetWords(made, words);
     editor.InsertBefore(blocks[0], made);
   };
-  const auto word_of = [](WordOp op, std::uint32_t extra) {
-    Word word;
-    word.op = op;
-    word.phase = DefaultPhaseOf(op);
-    word.extra = extra;
-    return word;
-  };
+  const auto word_of = [](WordOp op, std::uint32_t extra) { return MakeWord(op, 0, {}, extra); };
   if (!parameters_[program.value].empty()) {
     module_.programs[program].has_header = true;
     put({word_of(WordOp::kHeader, program.value)});

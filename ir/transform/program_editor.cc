@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/result.h"
+#include "ir/block_words.h"
 #include "ir/structure.h"
 
 namespace ncport::ir::transform {
@@ -26,10 +27,7 @@ Block ProgramEditor::MakeBlock(BlockId near) {
   return block;
 }
 
-void ProgramEditor::SetWords(Block& block, const std::vector<Word>& words) {
-  block.words = {static_cast<std::uint32_t>(module_.words.Size()), static_cast<std::uint32_t>(words.size())};
-  for (const Word& word : words) module_.words.Add(word);
-}
+void ProgramEditor::SetWords(Block& block, const std::vector<Word>& words) { ir::SetWords(module_, block, words); }
 
 void ProgramEditor::Remove(BlockId place) { edits_.push_back({place, Where::kAt, {}}); }
 

@@ -9,6 +9,7 @@
 #include "ir/analysis/cfg.h"
 #include "ir/analysis/modal_state.h"
 #include "ir/builder.h"
+#include "ir/make_word.h"
 #include "ir/transform/mode_use.h"
 #include "ir/transform/program_editor.h"
 
@@ -156,10 +157,7 @@ class Pass {
   }
 
   static Word WordOf(WordOp op, std::uint8_t index) {
-    Word made;
-    made.op = op;
-    made.index = index;
-    made.phase = DefaultPhaseOf(op);
+    Word made = MakeWord(op, index);
     made.flags = Word::kAdded;
     return made;
   }

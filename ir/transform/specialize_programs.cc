@@ -15,7 +15,9 @@
 #include "ir/analysis/call_graph.h"
 #include "ir/analysis/cfg.h"
 #include "ir/analysis/modal_state.h"
+#include "ir/block_words.h"
 #include "ir/builder.h"
+#include "ir/make_word.h"
 #include "ir/structure.h"
 #include "ir/transform/constant_values.h"
 #include "ir/transform/linear_form.h"
@@ -271,11 +273,7 @@ void Pass::Bind(ProgramId from, ProgramId program, const Given& given) {
     const VariableId id = copy(source.parameters[i]);
     module_.variables[id].scope = Scope::kLocal;
     module_.variables[id].initial = make_.Literal(*given[i], module_.variables[id].type);
-    Word define;
-    define.op = WordOp::kDefine;
-    define.phase = DefaultPhaseOf(WordOp::kDefine);
-    define.extra = id.value;
-    definitions.push_back(define);
+    definitions.push_back(MakeWord(WordOp::kDefine, 0, {}, id.value));
   }
   titles_[program.value] = title;
   const std::size_t known = module_.variables.Size();
@@ -555,8 +553,7 @@ bool Pass::Rewrite(BlockId id, const ConstantValues& values, Block& block) {
     }
     words.push_back(word);
   }
-  block.words = {static_cast<std::uint32_t>(module_.words.Size()), static_cast<std::uint32_t>(words.size())};
-  for (const Word& word : words) module_.words.Add(word);
+  SetWords(module_, block, words);
   return !words.empty() || old.Empty();
 }
 

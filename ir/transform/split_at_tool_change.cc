@@ -13,6 +13,7 @@
 #include "ir/analysis/cfg.h"
 #include "ir/analysis/labels.h"
 #include "ir/builder.h"
+#include "ir/make_word.h"
 #include "ir/structure.h"
 #include "ir/transform/linear_form.h"
 #include "ir/transform/program_editor.h"
@@ -369,10 +370,7 @@ void Pass::Split(ProgramId program, BlockId at) {
 
   // The first part ends where the tool change stood; a jump to the tool change ends there too.
   ProgramEditor editor(module_, program, "split_at_tool_change");
-  Word ret;
-  ret.op = WordOp::kReturn;
-  ret.phase = DefaultPhaseOf(WordOp::kReturn);
-  ret.index = static_cast<std::uint8_t>(ReturnKind::kPlain);
+  Word ret = MakeWord(WordOp::kReturn, ReturnKind::kPlain);
   Block end = editor.MakeBlock(at);
   end.label = tool.label;
   end.number = tool.number;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "ir/builder.h"
+#include "ir/make_word.h"
 #include "ir/transform/linear_form.h"
 #include "ir/transform/new_local.h"
 #include "ir/transform/program_editor.h"
@@ -100,12 +101,7 @@ void SplitStatements(Module& module, ProgramId program) {
         }
         if (changed_later) {
           const VariableId held = NewLocal(module, program, "HELD", module.exprs[word.value].type);
-          Word assign;
-          assign.op = WordOp::kAssign;
-          assign.phase = DefaultPhaseOf(WordOp::kAssign);
-          assign.extra = make.Variable(held).value;
-          assign.value = word.value;
-          statements.push_back({assign});
+          statements.push_back({MakeAssignment(make.Variable(held), word.value)});
           word.value = make.Variable(held);
         }
       }

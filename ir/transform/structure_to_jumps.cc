@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "ir/analysis/labels.h"
+#include "ir/block_words.h"
 #include "ir/builder.h"
+#include "ir/make_word.h"
 #include "ir/structure.h"
 #include "ir/transform/conditions.h"
 #include "ir/transform/new_local.h"
@@ -181,12 +183,7 @@ void Lowering::EmitJump(Place target, ExprId condition) {
   jump.search = Search::kForwardThenFromStart;
   const JumpId id = module_.jumps.Add(jump);
   jumps_.emplace_back(id, target);
-  Word word;
-  word.op = WordOp::kJump;
-  word.phase = DefaultPhaseOf(WordOp::kJump);
-  word.value = condition;
-  word.extra = id.value;
-  Emit({word});
+  Emit({MakeWord(WordOp::kJump, 0, condition, id.value)});
 }
 
 void Lowering::EmitCondition(ExprId condition, bool sense, Place target) {
@@ -201,14 +198,7 @@ void Lowering::EmitCondition(ExprId condition, bool sense, Place target) {
   Here(steps.back());
 }
 
-void Lowering::EmitAssign(ExprId place, ExprId value) {
-  Word word;
-  word.op = WordOp::kAssign;
-  word.phase = DefaultPhaseOf(WordOp::kAssign);
-  word.extra = place.value;
-  word.value = value;
-  Emit({word});
-}
+void Lowering::EmitAssign(ExprId place, ExprId value) { Emit({MakeAssignment(place, value)}); }
 
 void Lowering::LowerJump(std::uint32_t index, const Word& word) {
   const Jump jump = module_.jumps[word.Extra<JumpId>()];
@@ -500,14 +490,10 @@ void Lowering::Finish() {
     while (first < out_.size() && is_definition(out_[first])) ++first;
     std::vector<Out> inserted;
     for (const VariableId counter : repeat_counters_) {
-      Word word;
-      word.op = WordOp::kAssign;
-      word.phase = DefaultPhaseOf(WordOp::kAssign);
-      word.extra = make_.Variable(counter).value;
-      word.value = make_.Literal(0, Type::kInt);
+      const ExprId count = make_.Variable(counter);
       Out& out = inserted.emplace_back();
       if (first < out_.size()) out.block.origin = out_[first].block.origin;
-      out.words = {word};
+      out.words = {MakeAssignment(count, make_.Literal(0, Type::kInt))};
     }
     out_.insert(out_.begin() + static_cast<std::ptrdiff_t>(first), inserted.begin(), inserted.end());
   }
@@ -541,8 +527,7 @@ void Lowering::Finish() {
       out.block.comments = comments;
       out.block.label = {};
     }
-    out.block.words = {static_cast<std::uint32_t>(module_.words.Size()), static_cast<std::uint32_t>(out.words.size())};
-    for (const Word& word : out.words) module_.words.Add(word);
+    SetWords(module_, out.block, out.words);
     module_.blocks.Add(out.block);
   }
   module_.programs[program_].blocks = range;

@@ -8,6 +8,8 @@
 #include <set>
 
 #include "check/expressions.h"
+#include "check/loop_drift.h"
+#include "check/place_changes.h"
 #include "check/places.h"
 #include "check/value_rules.h"
 
@@ -37,6 +39,10 @@ class Loops final : public ValueRule {
     See(site, runs);
     if (runs.HasNumber() && runs.high == 0 && !ranges_.contains(site.block.value))
       ranges_[site.block.value] = fmt::format("{} to {}", check::TextOf(start), check::TextOf(end));
+  }
+
+  void Operation(const Site&, ExprId expr, const Interval* operands, std::size_t count, Lookup&) override {
+    sums_.Add(input_.module, expr, operands, count);
   }
 
   void Finish(diag::Sink& sink) override {
@@ -83,30 +89,45 @@ class Loops final : public ValueRule {
       if (looked_ > kMostLooked) return;
     }
     switch (*mark) {
-      case WordOp::kWhile: {
-        const bool fixed =
-            seen && truth->second.low == 1 && (IsConstant(block) || StepsAway(id, block.link, block, true));
-        const bool frozen = !fixed && Frozen(program, id, block.link, id);
-        const std::string missed = fixed || frozen ? "" : Missed(program, id, block.link, id, ExprOp::kNotEqual);
-        if ((fixed || frozen || !missed.empty()) && !LeavesElsewhere(graph, id, block.link))
-          Endless(at, id, frozen, sink, missed);
-        return;
-      }
+      case WordOp::kWhile:
+        return Test({program, id, block.link, id, seen ? truth->second : Interval::None(), true}, at, sink);
       case WordOp::kLoop:
         if (!LeavesElsewhere(graph, id, block.link)) Endless(at, id, false, sink, {});
         return;
-      case WordOp::kUntil: {
-        const bool fixed =
-            seen && truth->second.high == 0 && (IsConstant(block) || StepsAway(block.link, id, block, false));
-        const bool frozen = !fixed && Frozen(program, block.link, id, id);
-        const std::string missed = fixed || frozen ? "" : Missed(program, block.link, id, id, ExprOp::kEqual);
-        if ((fixed || frozen || !missed.empty()) && !LeavesElsewhere(graph, block.link, id))
-          Endless(at, id, frozen, sink, missed);
-        return;
-      }
+      case WordOp::kUntil:
+        return Test({program, block.link, id, id, seen ? truth->second : Interval::None(), false}, at, sink);
       default:
         return;
     }
+  }
+
+  /// A loop with a condition in its first or last block.
+  struct Tested {
+    ir::ProgramId program;
+    BlockId first, last, test;
+    Interval truth;  // of the condition; none: no run comes there
+    bool goes_on;    // the truth with which the loop goes on
+  };
+
+  void Test(const Tested& loop, const SourceRange& at, diag::Sink& sink) {
+    const ir::Block& block = input_.module.blocks[loop.test];
+    const bool seen = loop.truth.HasNumber();
+    if (LeavesElsewhere(graphs_.Of(loop.program), loop.first, loop.last)) return;
+    const bool always = seen && loop.truth.IsPoint() && (loop.truth.low == 1) == loop.goes_on;
+    if (always && IsConstant(block)) return Endless(at, loop.test, false, sink, {});
+    if (Frozen(loop.program, loop.first, loop.last, loop.test)) return Endless(at, loop.test, true, sink, {});
+    const ir::Word& word = input_.module.words[block.words[0]];
+    const bool may_go_on = seen && (loop.goes_on ? loop.truth.high == 1 : loop.truth.low == 0);
+    if (may_go_on && word.value.Valid()) {
+      LoopDrift drift(input_.module, changes_, sums_, {loop.program, loop.first, loop.last});
+      if (drift.Of(word.value, loop.goes_on) == Course::kDrifts) {
+        drift.Explain(sink.Report(diag::Code::kEndlessLoop, at), loop.goes_on);
+        return;
+      }
+    }
+    const std::string missed =
+        Missed(loop.program, loop.first, loop.last, loop.test, loop.goes_on ? ExprOp::kNotEqual : ExprOp::kEqual);
+    if (!missed.empty()) Endless(at, loop.test, false, sink, missed);
   }
 
   /// A condition that reads nothing. Values that a division or a root let through keep others true as well, but such a
@@ -124,41 +145,6 @@ class Loops final : public ValueRule {
     bool reads = false;
     ForOperands(expr, [&](ExprId operand) { reads = reads || ReadsAnything(operand); });
     return reads;
-  }
-
-  /// A comparison of one place with a literal, and steps of the place that lead away from it: `WHILE R1>0` around
-  /// `R1=R1+1`. Values that a division or a root lets through play no part. `holds`: what the comparison stays.
-  [[nodiscard]] bool StepsAway(BlockId first, BlockId last, const ir::Block& test, bool holds) const {
-    const ir::Module& module = input_.module;
-    const ExprId condition = test.words.Empty() ? ExprId{} : module.words[test.words[0]].value;
-    if (!condition.Valid()) return false;
-    const Expr& compare = module.exprs[Bare(condition)];
-    const bool above = compare.op == ExprOp::kGreater || compare.op == ExprOp::kGreaterEqual;
-    if (!above && compare.op != ExprOp::kLess && compare.op != ExprOp::kLessEqual) return false;
-    const Expr& place = module.exprs[Bare(ExprId{std::size_t{compare.a}})];
-    if (!IsPlace(place) || !LiteralValue(module, ExprId{std::size_t{compare.b}})) return false;
-    const double wanted = above == holds ? 1 : -1;  // sign of the steps
-    bool steps = false;
-    for (std::uint32_t i = first.value; i <= last.value; ++i) {
-      for (const ir::WordId id : module.blocks[BlockId{std::size_t{i}}].words) {
-        const ir::Word& word = module.words[id];
-        if (MayTouchPlace(module, word, place)) return false;
-        if (!SetsPlace(module, word, place)) continue;
-        if (word.op != WordOp::kAssign || StepOf(word.value, place) * wanted <= 0) return false;
-        steps = true;
-      }
-    }
-    return steps;
-  }
-
-  /// The literal step of `place + 1`, signed; 0: it is none.
-  [[nodiscard]] double StepOf(ExprId value, const Expr& place) const {
-    const ir::Module& module = input_.module;
-    const Expr& sum = module.exprs[Bare(value)];
-    if (sum.op != ExprOp::kAdd && sum.op != ExprOp::kSubtract) return 0;
-    if (!SamePlace(module.exprs[Bare(ExprId{std::size_t{sum.a}})], place)) return 0;
-    const std::optional<double> step = LiteralValue(module, ExprId{std::size_t{sum.b}});
-    return !step ? 0 : sum.op == ExprOp::kAdd ? *step : -*step;
   }
 
   void Endless(const SourceRange& at, BlockId id, bool frozen, diag::Sink& sink, const std::string& missed) {
@@ -225,16 +211,8 @@ class Loops final : public ValueRule {
   [[nodiscard]] bool Frozen(ir::ProgramId program, BlockId first, BlockId last, BlockId test) const {
     const ir::Word& word = input_.module.words[input_.module.blocks[test].words[0]];
     if (!word.value.Valid()) return false;
-    std::set<std::pair<std::uint32_t, std::uint64_t>> read;
-    bool shared = false;
-    if (!Reads(program, word.value, read, shared) || read.empty()) return false;
-    for (std::uint32_t i = first.value; i <= last.value; ++i) {
-      const ir::Block& block = input_.module.blocks[BlockId{std::size_t{i}}];
-      for (const ir::WordId id : block.words) {
-        if (Changes(input_.module.words[id], read, shared)) return false;
-      }
-    }
-    return true;
+    const PlacesRead read = changes_.ReadsOf(program, word.value);
+    return read.known && !read.places.empty() && !changes_.AnyChanges(first, last, read);
   }
 
   /// The literal, also with a sign or in brackets.
@@ -261,19 +239,6 @@ class Loops final : public ValueRule {
     return a.op == ExprOp::kVariable || (a.op == ExprOp::kCell && a.b == b.b);
   }
 
-  /// No block of these changes the value of the place.
-  [[nodiscard]] bool Unchanged(ir::ProgramId program, ExprId place, BlockId first, BlockId last) const {
-    std::set<std::pair<std::uint32_t, std::uint64_t>> read;
-    bool shared = false;
-    if (!Reads(program, place, read, shared)) return false;
-    for (std::uint32_t i = first.value; i <= last.value; ++i) {
-      for (const ir::WordId id : input_.module.blocks[BlockId{std::size_t{i}}].words) {
-        if (Changes(input_.module.words[id], read, shared)) return false;
-      }
-    }
-    return true;
-  }
-
   /// `place = place + step`, also with minus, in the loop of these blocks.
   [[nodiscard]] std::optional<double> StepOf(const ir::Word& word, const Expr& place, ir::ProgramId program,
                                              BlockId first_block, BlockId last_block) const {
@@ -288,7 +253,7 @@ class Loops final : public ValueRule {
     std::optional<double> step = Literal(first ? right : left);
     const Expr& bare = input_.module.exprs[operand];
     if (!step && (bare.op == ExprOp::kVariable || bare.op == ExprOp::kCell) &&
-        Unchanged(program, operand, first_block, last_block))
+        changes_.Unchanged(program, operand, first_block, last_block))
       step = SetBefore(bare, first_block);
     return step && sum.op == ExprOp::kSubtract ? std::optional(-*step) : step;
   }
@@ -311,7 +276,7 @@ class Loops final : public ValueRule {
             word.op == WordOp::kSkipRest || word.op == WordOp::kAssignList || word.op == WordOp::kVerbatim)
           return std::nullopt;
         // Behind a move a modal call may run, which writes what all see.
-        if (has_modal_ && word.phase == ir::Phase::kMotion) return std::nullopt;
+        if (changes_.HasModalCalls() && word.phase == ir::Phase::kMotion) return std::nullopt;
       }
       // A jump may come to here.
       if (before.label.Valid() || before.number != ir::Block::kNoNumber) {
@@ -351,14 +316,13 @@ class Loops final : public ValueRule {
     }
     const Expr& place = input_.module.exprs[counter];
     if (!end || (place.op != ExprOp::kVariable && place.op != ExprOp::kCell)) return {};
-    std::set<std::pair<std::uint32_t, std::uint64_t>> read;
-    bool shared = false;
-    if (!Reads(program, counter, read, shared) || read.empty()) return {};
+    const PlacesRead read = changes_.ReadsOf(program, counter);
+    if (!read.known || read.places.empty()) return {};
     std::optional<double> step;
     for (std::uint32_t i = first.value; i <= last.value; ++i) {
       for (const ir::WordId id : input_.module.blocks[BlockId{std::size_t{i}}].words) {
         const ir::Word& word = input_.module.words[id];
-        if (!Changes(word, read, shared)) continue;
+        if (!changes_.Changes(word, read)) continue;
         if (word.op != WordOp::kAssign || !SamePlace(input_.module.exprs[word.Extra<ExprId>()], place)) return {};
         const std::optional<double> this_step = StepOf(word, place, program, first, last);
         if (!this_step || (step && *step != *this_step)) return {};
@@ -404,94 +368,13 @@ class Loops final : public ValueRule {
     return false;
   }
 
-  /// What the condition reads; false if something else than the program can change it.
-  bool Reads(ir::ProgramId program, ExprId id, std::set<std::pair<std::uint32_t, std::uint64_t>>& read,
-             bool& shared) const {
-    const Expr& expr = input_.module.exprs[id];
-    switch (expr.op) {
-      case ExprOp::kVariable: {
-        const ir::Variable& variable = input_.module.variables[ir::VariableId{std::size_t{expr.a}}];
-        if (variable.by_reference) return false;
-        shared = shared || variable.owner != program ||
-                 (variable.scope != ir::Scope::kLocal && variable.scope != ir::Scope::kParameter);
-        read.emplace(0, expr.a);
-        return true;
-      }
-      case ExprOp::kCell:
-        shared = true;
-        read.emplace(1, std::uint64_t{expr.a} << 32U | expr.b);
-        return true;
-      case ExprOp::kElement:
-      case ExprOp::kCellAt:
-      case ExprOp::kSystem:
-      case ExprOp::kName:
-      case ExprOp::kText:
-      case ExprOp::kConcat:
-        return false;
-      case ExprOp::kFunction: {
-        const auto function = static_cast<ir::Function>(expr.a);
-        if (function > ir::Function::kAddDecimalPoint) return false;
-        break;
-      }
-      default:
-        break;
-    }
-    bool ok = true;
-    ForOperands(expr, [&](ExprId operand) { ok = Reads(program, operand, read, shared) && ok; });
-    return ok;
-  }
-
-  [[nodiscard]] bool Changes(const ir::Word& word, const std::set<std::pair<std::uint32_t, std::uint64_t>>& read,
-                             bool shared) const {
-    const auto writes = [&](ExprId place) {
-      const Expr& expr = input_.module.exprs[place];
-      switch (expr.op) {
-        case ExprOp::kVariable:
-          return read.contains({0, expr.a});
-        case ExprOp::kCell:
-          return read.contains({1, std::uint64_t{expr.a} << 32U | expr.b});
-        case ExprOp::kElement:
-          return false;
-        default:
-          return true;
-      }
-    };
-    switch (word.op) {
-      case WordOp::kAssign:
-        return writes(word.Extra<ExprId>());
-      case WordOp::kFor:
-        return writes(input_.module.fors[word.Extra<ir::ForId>()].variable);
-      case WordOp::kDefine:
-        return read.contains({0, word.extra});
-      case WordOp::kAssignList:
-      case WordOp::kVerbatim:
-        return true;
-      case WordOp::kModalCall:
-        return shared;
-      case WordOp::kCall: {
-        if (shared) return true;
-        if (!word.Extra<ir::CallId>().Valid()) return true;
-        const ir::Call& call = input_.module.calls[word.Extra<ir::CallId>()];
-        if (call.form == ir::CallForm::kBlockRange || call.from_block) return true;
-        for (const ir::ArgId arg : call.args) {
-          const ExprId value = input_.module.args[arg].value;
-          if (value.Valid() && input_.module.exprs[value].op == ExprOp::kVariable && writes(value)) return true;
-        }
-        return false;
-      }
-      default:
-        // Motion runs a modal subprogram, which may write what all see.
-        return shared && word.phase == ir::Phase::kMotion && has_modal_;
-    }
-  }
-
   const ir::analysis::FlowGraphs& graphs_;
   static constexpr std::uint64_t kMostLooked = 20'000'000;  // blocks of bodies, all loops of the module together
   std::uint64_t looked_ = 0;
   std::map<std::uint32_t, Interval> truths_;
   std::map<std::uint32_t, std::string> ranges_;
-  bool has_modal_ = std::ranges::any_of(input_.module.words.All(),
-                                        [](const ir::Word& word) { return word.op == WordOp::kModalCall; });
+  PlaceChanges changes_{input_.module};
+  SumOperands sums_;
 };
 
 }  // namespace

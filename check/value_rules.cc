@@ -62,6 +62,7 @@ ir::analysis::RangeStatistics CheckValues(const ir::Module& module, const ir::Ma
   rules.push_back(MakeNumberRange(input, findings));
   rules.push_back(MakeArrayIndex(input, findings));
   rules.push_back(MakeLoops(input, findings, graphs));
+  rules.push_back(MakeJumpLoops(input, findings, graphs));
   rules.push_back(MakeCallAlarms(input, findings, graphs));
   AllRules all(rules);
   ir::analysis::RangeOptions range_options;

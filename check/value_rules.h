@@ -16,6 +16,9 @@ std::unique_ptr<ValueRule> MakeArrayIndex(const ValueRuleInput& input, ValueFind
 /// Loops that never run or never end.
 std::unique_ptr<ValueRule> MakeLoops(const ValueRuleInput& input, ValueFindings& findings,
                                      const ir::analysis::FlowGraphs& graphs);
+/// Loops of a jump back with a condition that never end, or whose jump is never taken.
+std::unique_ptr<ValueRule> MakeJumpLoops(const ValueRuleInput& input, ValueFindings& findings,
+                                         const ir::analysis::FlowGraphs& graphs);
 /// Calls of cycles that end in an alarm because of what they pass.
 std::unique_ptr<ValueRule> MakeCallAlarms(const ValueRuleInput& input, ValueFindings& findings,
                                           const ir::analysis::FlowGraphs& graphs);

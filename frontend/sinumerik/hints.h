@@ -17,6 +17,10 @@ namespace ncport::frontend::sinumerik {
 void ExplainSyntax(std::span<const Token> tokens, std::size_t at, std::string_view line, LineError& error,
                    std::string& help);
 
+/// `G0TOF`, `G0T0B`: a jump word with zeros for its letters O falls apart into G0 and what follows. True if that is so:
+/// the error is moved to the word and names the jump.
+bool ExplainJumpWithZeros(std::string_view line, LineError& error, std::string& help);
+
 /// A character or word that the tokens do not know.
 void ExplainWord(std::string_view line, LineError& error, std::string& help);
 

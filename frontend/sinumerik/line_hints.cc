@@ -1,0 +1,109 @@
+// Slips that show in the line as a whole: frames without `:`, blocks that go on in the next line.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "dialects/sinumerik/words.h"
+#include "frontend/common/chars.h"
+#include "frontend/sinumerik/hints.h"
+
+namespace ncport::frontend::sinumerik {
+
+using diag::Code;
+namespace words = dialects::sinumerik;
+
+void ExplainFrameSign(std::string_view line, std::uint32_t word, LineError& error, std::string& help) {
+  constexpr std::string_view kFrames[] = {"CTRANS", "CROT", "CSCALE", "CMIRROR", "CFINE", "CROTS", "CRPL"};
+  constexpr std::string_view kOperators = "+-*/";
+  const auto wrong = [&](std::size_t at) {
+    error = {.code = Code::kUnexpectedText, .begin = static_cast<std::uint32_t>(at), .length = 1};
+    help = "frames are chained with :";
+    error.help = help.c_str();
+  };
+  line = line.substr(0, line.find(';'));
+  for (std::size_t at = word; at < line.size();) {
+    std::size_t end = at;
+    while (end < line.size() && (IsLetter(line[end]) || IsDigit(line[end]) || line[end] == '_')) ++end;
+    if (end == at) {
+      ++at;
+      continue;
+    }
+    const std::string_view name = line.substr(at, end - at);
+    const std::size_t open = line.find_first_not_of(" \t", end);
+    const bool frame = std::any_of(std::begin(kFrames), std::end(kFrames),
+                                   [&](std::string_view known) { return IsWord(name, known); });
+    if (frame && open != std::string_view::npos && line[open] == '(') {
+      const std::size_t before = at == 0 ? std::string_view::npos : line.find_last_not_of(" \t", at - 1);
+      if (before != std::string_view::npos && kOperators.find(line[before]) != std::string_view::npos)
+        return wrong(before);
+      int depth = 0;
+      std::size_t close = open;
+      for (; close < line.size(); ++close) {
+        if (line[close] == '(') ++depth;
+        if (line[close] == ')' && --depth == 0) break;
+      }
+      const std::size_t next = close < line.size() ? line.find_first_not_of(" \t", close + 1) : std::string_view::npos;
+      if (next != std::string_view::npos && kOperators.find(line[next]) != std::string_view::npos) return wrong(next);
+      end = close;
+    }
+    at = std::max(end, at + 1);
+  }
+}
+
+bool GoesOn(std::string_view line) {
+  int depth = 0;
+  bool text = false;
+  std::string_view code;
+  for (std::size_t i = 0; i <= line.size(); ++i) {
+    if (i == line.size() || (line[i] == ';' && !text)) {
+      code = line.substr(0, i);
+      break;
+    }
+    if (line[i] == '"') text = !text;
+    if (text) continue;
+    if (line[i] == '(' || line[i] == '[') ++depth;
+    if (line[i] == ')' || line[i] == ']') --depth;
+  }
+  while (!code.empty() && static_cast<unsigned char>(code.back()) <= ' ') code.remove_suffix(1);
+  return depth > 0 && !text && (code.ends_with(',') || code.ends_with("<<") || code.ends_with('+'));
+}
+
+void ExplainSecondLine(std::string_view before, std::uint32_t line_before, std::string_view line, LineError& error,
+                       std::string& help) {
+  help = fmt::format("line {} goes on here, but a block ends with its line: write both in one", line_before);
+  error.help = help.c_str();
+  // A list of parameters: names behind types. The second one of a name is the finding, as no other block tells of it.
+  std::vector<std::string_view> names;
+  bool typed = false;
+  const auto scan = [&](std::string_view text, bool second) {
+    for (std::size_t at = 0; at < text.size();) {
+      std::size_t end = at;
+      while (end < text.size() && (IsLetter(text[end]) || IsDigit(text[end]) || text[end] == '_')) ++end;
+      if (end == at) {
+        ++at;
+        continue;
+      }
+      const std::string_view word = text.substr(at, end - at);
+      if (typed) {
+        for (const std::string_view name : names) {
+          if (!second || name.size() != word.size() ||
+              !std::equal(name.begin(), name.end(), word.begin(), [](char a, char b) { return Upper(a) == Upper(b); }))
+            continue;
+          error = {.code = Code::kDoubleName,
+                   .begin = static_cast<std::uint32_t>(at),
+                   .length = static_cast<std::uint32_t>(word.size()),
+                   .help = help.c_str()};
+        }
+        names.push_back(word);
+      }
+      typed = false;
+      for (const auto& row : words::Types()) typed = typed || IsWord(word, row.text);
+      at = end;
+    }
+  };
+  scan(before, false);
+  scan(line, true);
+}
+
+}  // namespace ncport::frontend::sinumerik

@@ -4,9 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "ir/analysis/call_graph.h"
-#include "ir/analysis/cfg.h"
-#include "ir/analysis/modal_state.h"
+#include "ir/analysis/flow_analyses.h"
 #include "ir/builder.h"
 
 namespace ncport::backends::fanuc {
@@ -31,13 +29,7 @@ struct Side {
 class Mapper {
  public:
   Mapper(const RaiseInput& input, Translation& out, diag::Sink& sink)
-      : input_(input),
-        module_(out.module),
-        sink_(sink),
-        graphs_(module_),
-        calls_(module_),
-        flow_(module_, *input.source_machine, graphs_, calls_,
-              {input.source_machine->start, input.config != nullptr ? input.config->entry : ir::ModalState{}}) {}
+      : input_(input), module_(out.module), sink_(sink), analyses_(input.Analyse(module_)), flow_(analyses_.Modal()) {}
 
   bool Run() {
     for (const ProgramId program : module_.programs.Ids()) {
@@ -128,9 +120,8 @@ class Mapper {
   const RaiseInput& input_;
   Module& module_;
   diag::Sink& sink_;
-  ir::analysis::FlowGraphs graphs_;
-  ir::analysis::CallGraph calls_;
-  ir::analysis::ModalFlow flow_;
+  ir::analysis::FlowAnalyses analyses_;
+  const ir::analysis::ModalFlow& flow_;
   bool ok_ = true;
 };
 

@@ -5,9 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "ir/analysis/call_graph.h"
-#include "ir/analysis/cfg.h"
-#include "ir/analysis/modal_state.h"
+#include "ir/analysis/flow_analyses.h"
 #include "ir/make_word.h"
 #include "ir/transform/program_editor.h"
 
@@ -59,11 +57,8 @@ bool MapDwells(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   Module& module = out.module;
   const dialects::Profile& profile = *input.profile;
   const Counts* const counts = profile.fanuc.dwell.Known() ? &*profile.fanuc.dwell : nullptr;
-  const ir::analysis::FlowGraphs graphs(module);
-  const ir::analysis::CallGraph calls(module);
-  const ir::analysis::ModalFlow flow(
-      module, *input.source_machine, graphs, calls,
-      {input.source_machine->start, input.config != nullptr ? input.config->entry : ir::ModalState{}});
+  const ir::analysis::FlowAnalyses analyses = input.Analyse(module);
+  const ir::analysis::ModalFlow& flow = analyses.Modal();
   bool ok = true;
   for (const ProgramId program : module.programs.Ids()) {
     ProgramEditor editor(module, program, "map_dwells");

@@ -9,9 +9,7 @@
 
 #include "backends/fanuc/text_word.h"
 #include "dialects/fanuc/words.h"
-#include "ir/analysis/call_graph.h"
-#include "ir/analysis/cfg.h"
-#include "ir/analysis/modal_state.h"
+#include "ir/analysis/flow_analyses.h"
 #include "ir/builder.h"
 #include "ir/make_word.h"
 #include "ir/transform/linear_form.h"
@@ -138,9 +136,8 @@ std::vector<std::string> SafetyLines(const RaiseInput& input, bool calls_tools) 
 void PlaneOfSource(const RaiseInput& input, const Module& module, std::vector<std::string>& head) {
   const auto system = *dialects::fanuc::SystemOf(*input.profile);
   const ir::ModalState& start = input.source_machine->start;
-  const ir::analysis::FlowGraphs graphs(module);
-  const ir::analysis::CallGraph calls(module);
-  const ir::analysis::ModalFlow flow(module, *input.source_machine, graphs, calls, {});
+  const ir::analysis::FlowAnalyses analyses(module, *input.source_machine, {});
+  const ir::analysis::ModalFlow& flow = analyses.Modal();
   bool plane = false;
   for (const ir::ProgramId program : module.programs.Ids()) {
     for (const BlockId id : module.programs[program].blocks) {

@@ -121,11 +121,9 @@ class Mapper {
         out_(out),
         sink_(sink),
         module_(out.module),
-        graphs_(out.module),
-        calls_(out.module),
-        flow_(out.module, *input.source_machine, graphs_, calls_,
-              {input.source_machine->start, input.config != nullptr ? input.config->entry : ir::ModalState{}}),
-        selections_({module_, *input.source_machine, graphs_, calls_, &flow_}, *this) {}
+        analyses_(input.Analyse(out.module)),
+        flow_(analyses_.Modal()),
+        selections_(analyses_.Sources(), *this) {}
 
   bool Run();
 
@@ -166,9 +164,8 @@ class Mapper {
   Translation& out_;
   diag::Sink& sink_;
   Module& module_;
-  ir::analysis::FlowGraphs graphs_;
-  ir::analysis::CallGraph calls_;
-  ir::analysis::ModalFlow flow_;
+  ir::analysis::FlowAnalyses analyses_;
+  const ir::analysis::ModalFlow& flow_;
 
   std::vector<std::string> names_;  // "T1", `T="DRILL"`
   std::vector<std::pair<std::string, std::uint32_t>> source_tools_;
@@ -282,10 +279,10 @@ void Mapper::FindEffects() {
       if (words.tool != nullptr || words.edge != nullptr || words.change) selects_[program.value] = true;
     }
   }
-  for (const ProgramId program : calls_.BottomUp()) {
-    for (const ir::analysis::CallSite& site : calls_.SitesOf(program)) {
+  for (const ProgramId program : analyses_.Calls().BottomUp()) {
+    for (const ir::analysis::CallSite& site : analyses_.Calls().SitesOf(program)) {
       // Programs that call each other in a circle count as selecting, and those that are not known.
-      if (!site.callee.Valid() || selects_[site.callee.value] || calls_.Recursive(site.callee))
+      if (!site.callee.Valid() || selects_[site.callee.value] || analyses_.Calls().Recursive(site.callee))
         selects_[program.value] = true;
     }
   }

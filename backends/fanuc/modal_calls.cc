@@ -2,9 +2,6 @@
 
 #include <vector>
 
-#include "ir/analysis/call_graph.h"
-#include "ir/analysis/cfg.h"
-#include "ir/analysis/modal_state.h"
 #include "ir/make_word.h"
 #include "ir/transform/program_editor.h"
 
@@ -44,11 +41,9 @@ std::vector<bool> RunByModalCalls(const ir::Module& module, const ir::analysis::
 bool MapModalCalls(const RaiseInput& input, ir::Module& module, diag::Sink& sink) {
   // The same stack on both sides: nothing differs.
   if (input.source_machine->modal_call_levels > 1) return true;
-  const ir::ModalState entry = input.config != nullptr ? input.config->entry : ir::ModalState{};
-  const ir::analysis::FlowGraphs graphs(module);
-  const ir::analysis::CallGraph calls(module);
-  const ModalFlow flow(module, *input.source_machine, graphs, calls, {input.source_machine->start, entry});
-  const std::vector<bool> run_by_modal_calls = RunByModalCalls(module, calls);
+  const ir::analysis::FlowAnalyses analyses = input.Analyse(module);
+  const ModalFlow& flow = analyses.Modal();
+  const std::vector<bool> run_by_modal_calls = RunByModalCalls(module, analyses.Calls());
   bool ok = true;
   for (const ir::ProgramId program : module.programs.Ids()) {
     ir::transform::ProgramEditor editor(module, program, "modal_calls");

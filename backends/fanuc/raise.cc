@@ -413,7 +413,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   out.module = *input.source;
   Module& module = out.module;
   const ir::Machine& machine = *input.source_machine;
-  const ir::ModalState entry = input.config != nullptr ? input.config->entry : ir::ModalState{};
+  const ir::ModalState entry = input.SubEntry();
 
   const bool framed = NeedFrame(input, sink);
   // Another Fanuc control's X100 is 0.1 mm: the value, since here every number gets its point.
@@ -430,11 +430,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   forms = RefuseOpenIndices(input, module, sink) && forms;
   const std::vector<ir::analysis::DeclaredRange> declared = DeclaredRanges(input, module);
   forms = RefuseOpenRepeats(input, module, declared, sink) && forms;
-  {
-    const ir::analysis::FlowGraphs graphs(module);
-    const ir::analysis::CallGraph calls(module);
-    ResolveAxes(module, ir::analysis::ModalFlow(module, machine, graphs, calls, {machine.start, entry}));
-  }
+  ResolveAxes(module, input.Analyse(module).Modal());
   // Before a pass puts blocks behind the last one of a part that is repeated.
   for (const ir::ProgramId program : module.programs.Ids()) MarkPartEnds(module, program);
   TextsToComments(input, out, sink);

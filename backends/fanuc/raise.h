@@ -6,6 +6,7 @@
 #include "base/diag/sink.h"
 #include "dialects/config.h"
 #include "dialects/profile.h"
+#include "ir/analysis/flow_analyses.h"
 #include "ir/machine.h"
 
 namespace ncport::backends::fanuc {
@@ -17,6 +18,13 @@ struct RaiseInput {
   const dialects::Config* config = nullptr;
   const dialects::Profile* source_profile = nullptr;
   bool keep_increments = false;  // where the target has words for them
+
+  /// The modal state that [entry] declares for programs that nothing here calls.
+  [[nodiscard]] ir::ModalState SubEntry() const { return config != nullptr ? config->entry : ir::ModalState{}; }
+  /// Flow and modes of the module, on the machine of the source.
+  [[nodiscard]] ir::analysis::FlowAnalyses Analyse(const ir::Module& module) const {
+    return {module, *source_machine, {source_machine->start, SubEntry()}};
+  }
 };
 
 /// What cannot be said is a finding (NC6xxx) at its place, several per run; returns false then.

@@ -12,9 +12,7 @@
 #include "backends/fanuc/message_text.h"
 #include "backends/fanuc/text_word.h"
 #include "backends/fanuc/tool_flow.h"
-#include "ir/analysis/call_graph.h"
-#include "ir/analysis/cfg.h"
-#include "ir/analysis/modal_state.h"
+#include "ir/analysis/flow_analyses.h"
 #include "ir/block_words.h"
 #include "ir/builder.h"
 #include "ir/make_word.h"
@@ -217,12 +215,9 @@ bool MapTools(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   const std::string_view example = changes_by_m6 ? "T01.01 M6" : lathe ? "T0101" : "T1 M6 H1 D1";
   bool ok = true;
   // Of the module as it came: what is written below changes none of it.
-  const ir::analysis::FlowGraphs graphs(module);
-  const ir::analysis::CallGraph calls(module);
-  const ir::analysis::ModalFlow flow(
-      module, *input.source_machine, graphs, calls,
-      {input.source_machine->start, input.config != nullptr ? input.config->entry : ir::ModalState{}});
-  const ToolFlow tools({module, *input.source_machine, graphs, calls, &flow});
+  const ir::analysis::FlowAnalyses analyses = input.Analyse(module);
+  const ir::analysis::ModalFlow& flow = analyses.Modal();
+  const ToolFlow tools(analyses.Sources());
   bool selects = false;  // some program selects a work offset
   for (const Word& word : module.words.All()) selects = selects || word.op == WordOp::kWorkOffset;
   for (const ir::ProgramId program : module.programs.Ids()) {
@@ -465,11 +460,8 @@ bool MapAuxiliaries(const RaiseInput& input, Translation& out, diag::Sink& sink)
 bool ArrangeSpindle(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   Module& module = out.module;
   const dialects::Profile& profile = *input.profile;
-  const ir::analysis::FlowGraphs graphs(module);
-  const ir::analysis::CallGraph calls(module);
-  const ir::analysis::ModalFlow flow(
-      module, *input.source_machine, graphs, calls,
-      {input.source_machine->start, input.config != nullptr ? input.config->entry : ir::ModalState{}});
+  const ir::analysis::FlowAnalyses analyses = input.Analyse(module);
+  const ir::analysis::ModalFlow& flow = analyses.Modal();
   bool ok = true;
   for (const ir::ProgramId program : module.programs.Ids()) {
     ProgramEditor editor(module, program, "arrange_spindle");
@@ -570,11 +562,8 @@ bool ArrangeSpindle(const RaiseInput& input, Translation& out, diag::Sink& sink)
 
 void NameMotions(const RaiseInput& input, Translation& out) {
   Module& module = out.module;
-  const ir::analysis::FlowGraphs graphs(module);
-  const ir::analysis::CallGraph calls(module);
-  const ir::analysis::ModalFlow flow(
-      module, *input.source_machine, graphs, calls,
-      {input.source_machine->start, input.config != nullptr ? input.config->entry : ir::ModalState{}});
+  const ir::analysis::FlowAnalyses analyses = input.Analyse(module);
+  const ir::analysis::ModalFlow& flow = analyses.Modal();
   for (const ir::ProgramId program : module.programs.Ids()) {
     ir::Motion running = ir::Motion::kUnknown;  // of the block before on the straight way down
     for (const BlockId id : module.programs[program].blocks) {

@@ -8,9 +8,6 @@
 #include <vector>
 
 #include "dialects/fanuc/words.h"
-#include "ir/analysis/call_graph.h"
-#include "ir/analysis/cfg.h"
-#include "ir/analysis/modal_state.h"
 #include "ir/block_words.h"
 #include "ir/builder.h"
 #include "ir/make_word.h"
@@ -43,15 +40,12 @@ constexpr std::uint8_t kZ = 2;
 /// The flows that both the test and the rewriting look at.
 struct Flows {
   Flows(const RaiseInput& input, const Module& module)
-      : graphs(module),
-        calls(module),
-        modes(module, *input.source_machine, graphs, calls,
-              {input.source_machine->start, input.config != nullptr ? input.config->entry : ir::ModalState{}}),
-        frames(module, *input.source_machine, graphs, calls, modes, {}) {}
+      : analyses(input.Analyse(module)),
+        modes(analyses.Modal()),
+        frames(module, *input.source_machine, analyses.Graphs(), analyses.Calls(), modes, {}) {}
 
-  ir::analysis::FlowGraphs graphs;
-  ir::analysis::CallGraph calls;
-  ir::analysis::ModalFlow modes;
+  ir::analysis::FlowAnalyses analyses;
+  const ir::analysis::ModalFlow& modes;
   ir::transform::FrameFlow frames;
 };
 
@@ -171,7 +165,7 @@ bool RotationsAreNative(const RaiseInput& input, const Translation& out) {
     }
   }
   if (!holder.Valid() || input.source->programs[holder].saves_modal_state) return false;
-  for (const ir::analysis::CallSite& site : flows.calls.AllSites()) {
+  for (const ir::analysis::CallSite& site : flows.analyses.Calls().AllSites()) {
     if (site.callee == holder) return false;
   }
   return turns && needed;

@@ -10,9 +10,7 @@
 #include <vector>
 
 #include "backends/fanuc/message_text.h"
-#include "ir/analysis/call_graph.h"
-#include "ir/analysis/cfg.h"
-#include "ir/analysis/modal_state.h"
+#include "ir/analysis/flow_analyses.h"
 #include "ir/analysis/unwritten_cells.h"
 #include "ir/builder.h"
 #include "ir/make_word.h"
@@ -149,11 +147,8 @@ bool ShiftsToLocal(const RaiseInput& input, Translation& out, diag::Sink& sink) 
   if (!ok || holders.empty()) return ok;
   if (shifted == 0) shifted = input.profile->IsLathe() ? 4 : 7;
   const ProgramId holder{*holders.begin()};
-  const ir::analysis::FlowGraphs graphs(module);
-  const ir::analysis::CallGraph calls(module);
-  const ir::analysis::ModalFlow flow(
-      module, *input.source_machine, graphs, calls,
-      {input.source_machine->start, input.config != nullptr ? input.config->entry : ir::ModalState{}});
+  const ir::analysis::FlowAnalyses analyses = input.Analyse(module);
+  const ir::analysis::ModalFlow& flow = analyses.Modal();
   std::array<ir::VariableId, kLinearAxes> sums{};
   static constexpr std::array<std::string_view, kLinearAxes> kNames{"SHIFT_X", "SHIFT_Y", "SHIFT_Z"};
   if (adds) {

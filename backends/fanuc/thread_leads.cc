@@ -57,13 +57,7 @@ class Leads {
   }
 
   Leads(const RaiseInput& input, Module& module, diag::Sink& sink)
-      : input_(input),
-        module_(module),
-        sink_(sink),
-        graphs_(module),
-        calls_(module),
-        flow_(module, *input.source_machine, graphs_, calls_,
-              {input.source_machine->start, input.config != nullptr ? input.config->entry : ir::ModalState{}}) {}
+      : input_(input), module_(module), sink_(sink), analyses_(input.Analyse(module)), flow_(analyses_.Modal()) {}
 
   bool Run();
 
@@ -84,9 +78,8 @@ class Leads {
   const RaiseInput& input_;
   Module& module_;
   diag::Sink& sink_;
-  ir::analysis::FlowGraphs graphs_;
-  ir::analysis::CallGraph calls_;
-  ir::analysis::ModalFlow flow_;
+  ir::analysis::FlowAnalyses analyses_;
+  const ir::analysis::ModalFlow& flow_;
   std::map<BlockId, Use> uses_;
 };
 
@@ -155,7 +148,7 @@ bool Leads::Run() {
     for (const BlockId id : module_.programs[program].blocks) any = (uses_[id] = UseOf(program, id)).thread || any;
   }
   if (!any) return true;
-  ir::analysis::ForwardFlow<Leads> flow({module_, *input_.source_machine, graphs_, calls_, &flow_}, *this);
+  ir::analysis::ForwardFlow<Leads> flow(analyses_.Sources(), *this);
   flow.Run();
   bool ok = true;
   for (const auto& [id, use] : uses_) {

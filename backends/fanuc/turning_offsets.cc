@@ -50,11 +50,9 @@ class Pass {
         out_(out),
         sink_(sink),
         module_(out.module),
-        graphs_(out.module),
-        calls_(out.module),
-        flow_(out.module, *input.source_machine, graphs_, calls_,
-              {input.source_machine->start, input.config != nullptr ? input.config->entry : ir::ModalState{}}),
-        offsets_({module_, *input.source_machine, graphs_, calls_, &flow_}, *this),
+        analyses_(input.Analyse(out.module)),
+        flow_(analyses_.Modal()),
+        offsets_(analyses_.Sources(), *this),
         has_y_(std::find(input.profile->axes.begin(), input.profile->axes.end(), "Y") != input.profile->axes.end()) {}
 
   bool Run() {
@@ -78,9 +76,8 @@ class Pass {
   Translation& out_;
   diag::Sink& sink_;
   Module& module_;
-  ir::analysis::FlowGraphs graphs_;
-  ir::analysis::CallGraph calls_;
-  ir::analysis::ModalFlow flow_;
+  ir::analysis::FlowAnalyses analyses_;
+  const ir::analysis::ModalFlow& flow_;
   ir::analysis::ForwardFlow<Pass> offsets_;
   bool has_y_ = false;
   bool ok_ = true;

@@ -10,9 +10,7 @@
 
 #include "backends/fanuc/print_expr.h"
 #include "base/text_buffer.h"
-#include "ir/analysis/call_graph.h"
-#include "ir/analysis/cfg.h"
-#include "ir/analysis/modal_state.h"
+#include "ir/analysis/flow_analyses.h"
 
 namespace ncport::backends::fanuc {
 
@@ -71,11 +69,8 @@ void Write(Module& module, Word& word, double value, int decimals) {
 
 bool RoundFeeds(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   Module& module = out.module;
-  const ir::analysis::FlowGraphs graphs(module);
-  const ir::analysis::CallGraph calls(module);
-  const ir::analysis::ModalFlow flow(
-      module, *input.source_machine, graphs, calls,
-      {input.source_machine->start, input.config != nullptr ? input.config->entry : ir::ModalState{}});
+  const ir::analysis::FlowAnalyses analyses = input.Analyse(module);
+  const ir::analysis::ModalFlow& flow = analyses.Modal();
   const int lengths = static_cast<int>(input.profile->decimals.Or(3));
   bool ok = true;
   for (const ir::ProgramId program : module.programs.Ids()) {

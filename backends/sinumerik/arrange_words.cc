@@ -7,9 +7,7 @@
 #include <vector>
 
 #include "backends/sinumerik/raise_words.h"
-#include "ir/analysis/call_graph.h"
-#include "ir/analysis/cfg.h"
-#include "ir/analysis/modal_state.h"
+#include "ir/analysis/flow_analyses.h"
 #include "ir/builder.h"
 #include "ir/make_word.h"
 #include "ir/transform/program_editor.h"
@@ -75,10 +73,8 @@ class Pass {
         module_(out.module),
         sink_(sink),
         make_(out.module),
-        graphs_(out.module),
-        calls_(out.module),
-        flow_(out.module, *input.source_machine, graphs_, calls_,
-              {input.source_machine->start, input.config != nullptr ? input.config->entry : ir::ModalState{}}),
+        analyses_(input.Analyse(out.module)),
+        flow_(analyses_.Modal()),
         uses_(FindUses(out.module)) {}
 
   bool Run() {
@@ -359,9 +355,8 @@ class Pass {
   Module& module_;
   diag::Sink& sink_;
   ir::ExprBuilder make_;
-  ir::analysis::FlowGraphs graphs_;
-  ir::analysis::CallGraph calls_;
-  ir::analysis::ModalFlow flow_;
+  ir::analysis::FlowAnalyses analyses_;
+  const ir::analysis::ModalFlow& flow_;
   Uses uses_;
   bool ok_ = true;
 };

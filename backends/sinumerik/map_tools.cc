@@ -128,11 +128,9 @@ class Pass {
         module_(out.module),
         sink_(sink),
         make_(out.module),
-        graphs_(out.module),
-        calls_(out.module),
-        flow_(out.module, *input.source_machine, graphs_, calls_,
-              {input.source_machine->start, input.config != nullptr ? input.config->entry : ir::ModalState{}}),
-        selections_({module_, *input.source_machine, graphs_, calls_, &flow_}, *this) {}
+        analyses_(input.Analyse(out.module)),
+        flow_(analyses_.Modal()),
+        selections_(analyses_.Sources(), *this) {}
 
   bool Run() {
     for (const ir::ProgramId program : module_.programs.Ids()) {
@@ -140,7 +138,7 @@ class Pass {
     }
     for (bool again = true; again;) {
       again = false;
-      for (const auto& site : calls_.AllSites()) {
+      for (const auto& site : analyses_.Calls().AllSites()) {
         // Who knows what a program that is not found selects?
         if (!site.callee.Valid() || with_tools_.contains(site.callee.value))
           again = with_tools_below_.insert(site.caller.value).second || again;
@@ -488,9 +486,8 @@ class Pass {
   Module& module_;
   diag::Sink& sink_;
   ir::ExprBuilder make_;
-  ir::analysis::FlowGraphs graphs_;
-  ir::analysis::CallGraph calls_;
-  ir::analysis::ModalFlow flow_;
+  ir::analysis::FlowAnalyses analyses_;
+  const ir::analysis::ModalFlow& flow_;
   std::set<std::uint32_t> with_tools_, with_tools_below_;
   ir::analysis::ForwardFlow<Pass> selections_;
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, TargetTool> found_;

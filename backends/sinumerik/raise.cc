@@ -277,7 +277,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   }
   Module& module = out.module;
   const ir::Machine& machine = *input.source_machine;
-  const ir::ModalState entry = input.config != nullptr ? input.config->entry : ir::ModalState{};
+  const ir::ModalState entry = input.SubEntry();
 
   bool ok = RefuseFlow(input, module, sink);
   ok = ArrangeTexts(input, out, sink) && ok;

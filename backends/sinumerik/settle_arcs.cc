@@ -3,9 +3,7 @@
 #include <vector>
 
 #include "backends/sinumerik/raise_words.h"
-#include "ir/analysis/call_graph.h"
-#include "ir/analysis/cfg.h"
-#include "ir/analysis/modal_state.h"
+#include "ir/analysis/flow_analyses.h"
 #include "ir/transform/program_editor.h"
 
 namespace ncport::backends::sinumerik {
@@ -25,10 +23,8 @@ class Pass {
       : input_(input),
         module_(out.module),
         sink_(sink),
-        graphs_(out.module),
-        calls_(out.module),
-        flow_(out.module, *input.source_machine, graphs_, calls_,
-              {input.source_machine->start, input.config != nullptr ? input.config->entry : ir::ModalState{}}) {}
+        analyses_(input.Analyse(out.module)),
+        flow_(analyses_.Modal()) {}
 
   bool Run() {
     for (const ir::ProgramId program : module_.programs.Ids()) {
@@ -93,9 +89,8 @@ class Pass {
   const RaiseInput& input_;
   Module& module_;
   diag::Sink& sink_;
-  ir::analysis::FlowGraphs graphs_;
-  ir::analysis::CallGraph calls_;
-  ir::analysis::ModalFlow flow_;
+  ir::analysis::FlowAnalyses analyses_;
+  const ir::analysis::ModalFlow& flow_;
   bool ok_ = true;
 };
 

@@ -2,9 +2,6 @@
 #include <vector>
 
 #include "backends/sinumerik/raise_words.h"
-#include "ir/analysis/call_graph.h"
-#include "ir/analysis/cfg.h"
-#include "ir/analysis/modal_state.h"
 #include "ir/make_word.h"
 #include "ir/transform/program_editor.h"
 
@@ -23,11 +20,8 @@ using ir::transform::ProgramEditor;
 /// `start` without the groups that every program sets before a word hangs on them.
 ir::ModalState ReliedOn(const RaiseInput& input, const Module& module) {
   const ir::ModalState& start = input.source_machine->start;
-  const ir::analysis::FlowGraphs graphs(module);
-  const ir::analysis::CallGraph calls(module);
-  const ir::analysis::ModalFlow flow(
-      module, *input.source_machine, graphs, calls,
-      {ir::ModalState{}, input.config != nullptr ? input.config->entry : ir::ModalState{}});
+  const ir::analysis::FlowAnalyses analyses(module, *input.source_machine, {ir::ModalState{}, input.SubEntry()});
+  const ir::analysis::ModalFlow& flow = analyses.Modal();
   ir::ModalState relied;
   bool path_words = false;
   for (const ir::ProgramId program : module.programs.Ids()) {

@@ -36,42 +36,11 @@
 #include <utility>
 #include <vector>
 
-#include "ir/analysis/call_graph.h"
-#include "ir/analysis/cfg.h"
-#include "ir/analysis/modal_state.h"
+#include "ir/analysis/flow_analyses.h"
 #include "ir/machine.h"
 #include "ir/module.h"
 
 namespace ncport::ir::analysis {
-
-/// What the solver asks. All of the same module; they outlive the solver.
-struct FlowSources {
-  const Module& module;
-  const Machine& machine;
-  const FlowGraphs& graphs;
-  const CallGraph& calls;
-  const ModalFlow* modal;  // none: a modal call may run behind any block with motion
-};
-
-/// Them, for who has no other use for them.
-class FlowAnalyses {
- public:
-  FlowAnalyses(const Module& module, const Machine& machine, const ModalOptions& options)
-      : module_(module),
-        machine_(machine),
-        graphs_(module),
-        calls_(module),
-        modal_(module, machine, graphs_, calls_, options) {}
-
-  [[nodiscard]] FlowSources Sources() const { return {module_, machine_, graphs_, calls_, &modal_}; }
-
- private:
-  const Module& module_;
-  const Machine& machine_;
-  FlowGraphs graphs_;
-  CallGraph calls_;
-  ModalFlow modal_;
-};
 
 /// When a call takes its state from the caller.
 enum class CallMoment : std::uint8_t {

@@ -90,10 +90,10 @@ void DimensionPass::FindEffects() {
 /// Programs whose every call is here and runs the whole program at once.
 void DimensionPass::FindPassable() {
   passable_.assign(module_.programs.Size(), 0);
-  for (const analysis::CallSite& site : calls_.AllSites()) {
+  for (const analysis::CallSite& site : analyses_.Calls().AllSites()) {
     if (site.callee.Valid()) passable_[site.callee.value] = 1;
   }
-  for (const analysis::CallSite& site : calls_.AllSites()) {
+  for (const analysis::CallSite& site : analyses_.Calls().AllSites()) {
     if (!site.callee.Valid()) {
       passable_.assign(passable_.size(), 0);  // it may run any program
       return;
@@ -151,7 +151,7 @@ SlotMask DimensionPass::ReturnedAt(BlockId block) const {
 }
 
 SlotMask DimensionPass::LeftAt(BlockId block) const {
-  for (const analysis::Edge& edge : graphs_.Of(program_).Successors(block)) {
+  for (const analysis::Edge& edge : analyses_.Graphs().Of(program_).Successors(block)) {
     if (!edge.to.Valid() && Leaves(edge.kind)) return returns_[program_.value];
   }
   return 0;
@@ -159,7 +159,7 @@ SlotMask DimensionPass::LeftAt(BlockId block) const {
 
 SlotMask DimensionPass::LiveBehind(BlockId block) const {
   SlotMask behind = LeftAt(block);
-  for (const analysis::Edge& edge : graphs_.Of(program_).Successors(block)) {
+  for (const analysis::Edge& edge : analyses_.Graphs().Of(program_).Successors(block)) {
     if (edge.to.Valid()) behind |= live_[IndexOf(edge.to)];
   }
   return behind;
@@ -264,7 +264,7 @@ void DimensionPass::LeavePositions(BlockId id, Slots& slots, bool emit) {
   const SlotMask left = LeftAt(id);
   if (left == 0) return;
   bool before = true;  // a return acts in its block
-  for (const analysis::Edge& edge : graphs_.Of(program_).Successors(id)) {
+  for (const analysis::Edge& edge : analyses_.Graphs().Of(program_).Successors(id)) {
     if (!edge.to.Valid() && edge.kind == analysis::EdgeKind::kTextEnd) before = false;
   }
   for (Slot slot = 0; slot < kMaxAxes; ++slot) {

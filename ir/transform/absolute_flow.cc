@@ -45,7 +45,7 @@ void DimensionPass::FindLive() {
       if (step != Step::kNone && step != Step::kIncremental && always) sets[i] |= MaskOf(slot);
     }
   }
-  const analysis::Cfg& graph = graphs_.Of(program_);
+  const analysis::Cfg& graph = analyses_.Graphs().Of(program_);
   for (bool changed = true; changed;) {
     changed = false;
     for (std::uint32_t i = blocks_.count; i-- > 0;) {
@@ -70,7 +70,7 @@ void DimensionPass::FindCarryLive() {
     }
   }
   carry_live_.assign(blocks_.count, 0);
-  const analysis::Cfg& graph = graphs_.Of(program_);
+  const analysis::Cfg& graph = analyses_.Graphs().Of(program_);
   for (bool changed = true; changed;) {
     changed = false;
     for (std::uint32_t i = blocks_.count; i-- > 0;) {
@@ -305,7 +305,7 @@ Slots DimensionPass::EntrySlots() {
   Slots slots;
   for (SlotValue& value : slots) value.kind = SlotValue::Kind::kUnknown;
   bool called = module_.programs[program_].kind != ProgramKind::kMain;
-  for (const analysis::CallSite& site : calls_.AllSites()) called = called || site.callee == program_;
+  for (const analysis::CallSite& site : analyses_.Calls().AllSites()) called = called || site.callee == program_;
   if (!called || !poles_) {
     slots[kPoleFirst] = {SlotValue::Kind::kKnown, {}};
     slots[kPoleSecond] = {SlotValue::Kind::kKnown, {}};
@@ -339,7 +339,7 @@ void DimensionPass::SaveEntry(Slots& slots, bool emit) {
 }
 
 void DimensionPass::Flow() {
-  const analysis::Cfg& graph = graphs_.Of(program_);
+  const analysis::Cfg& graph = analyses_.Graphs().Of(program_);
   std::vector<SlotMask> carried_before;
   do {
     carried_before = carried_;

@@ -198,9 +198,9 @@ void DimensionPass::FindKept() {
       std::ranges::any_of(module_.words.All(), [](const Word& word) { return word.op == WordOp::kChamfer; });
   if (corners && config_.corners_to_moves != AbsoluteDimensionsConfig::Corners::kNone) return;
   Settled client(module_, flow_);
-  analysis::ForwardFlow<Settled> settled({module_, source_, graphs_, calls_, &flow_}, client);
+  analysis::ForwardFlow<Settled> settled({module_, source_, analyses_.Graphs(), analyses_.Calls(), &flow_}, client);
   settled.Run();
-  analysis::NumberKinds kinds(module_, calls_, source_.for_counter_rounds);
+  analysis::NumberKinds kinds(module_, analyses_.Calls(), source_.for_counter_rounds);
   std::vector<SlotMask> masks(module_.blocks.Size(), 0);
   for (const ProgramId program : module_.programs.Ids()) {
     Enter(program);

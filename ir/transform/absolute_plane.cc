@@ -94,7 +94,7 @@ void DimensionPass::FindRanges() {
   analysis::RangeOptions options;
   options.declared = config_.declared;
   Watcher watcher(module_, ranges_);
-  analysis::FindValueRanges(module_, source_, graphs_, calls_, options, watcher);
+  analysis::FindValueRanges(module_, source_, analyses_.Graphs(), analyses_.Calls(), options, watcher);
 }
 
 bool DimensionPass::Within(BlockId block, const Word& word, double low, double high) const {

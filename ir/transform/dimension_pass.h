@@ -10,10 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "ir/analysis/call_graph.h"
-#include "ir/analysis/cfg.h"
+#include "ir/analysis/flow_analyses.h"
 #include "ir/analysis/interval.h"
-#include "ir/analysis/modal_state.h"
 #include "ir/analysis/number_kinds.h"
 #include "ir/builder.h"
 #include "ir/transform/absolute_dimensions.h"
@@ -98,10 +96,9 @@ class DimensionPass {
         config_(config),
         sink_(sink),
         make_(module),
-        graphs_(module),
-        calls_(module),
-        flow_(module, source, graphs_, calls_, {source.start, config.sub_entry}),
-        frames_(module, source, graphs_, calls_, flow_, config.frames) {}
+        analyses_(module, source, {source.start, config.sub_entry}),
+        flow_(analyses_.Modal()),
+        frames_(module, source, analyses_.Graphs(), analyses_.Calls(), flow_, config.frames) {}
 
   bool Run();
   [[nodiscard]] CarriedPositions Carried() const;
@@ -260,9 +257,8 @@ class DimensionPass {
   const AbsoluteDimensionsConfig& config_;
   diag::Sink& sink_;
   ExprBuilder make_;
-  analysis::FlowGraphs graphs_;
-  analysis::CallGraph calls_;
-  analysis::ModalFlow flow_;
+  analysis::FlowAnalyses analyses_;
+  const analysis::ModalFlow& flow_;
   FrameFlow frames_;
   std::vector<Effects> effects_;                        // per program
   Effects modal_;                                       // of the programs that modal calls run

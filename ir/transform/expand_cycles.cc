@@ -77,17 +77,16 @@ class Pass {
         config_(config),
         sink_(sink),
         make_(module),
-        graphs_(module),
-        calls_(module),
-        flow_(module, source, graphs_, calls_, {source.start, config.sub_entry}),
-        drilling_({module, source, graphs_, calls_, &flow_}, *this),
+        analyses_(module, source, {source.start, config.sub_entry}),
+        flow_(analyses_.Modal()),
+        drilling_(analyses_.Sources(), *this),
         locals_(module.programs.Size()) {}
 
   bool Run() {
     bool any = false;
     for (const ProgramId program : module_.programs.Ids()) any = UsesHoles(program) || any;
     if (!any) return true;
-    for (const analysis::CallSite& site : calls_.AllSites()) {
+    for (const analysis::CallSite& site : analyses_.Calls().AllSites()) {
       if (site.callee.Valid()) called_.insert(site.callee.value);
     }
     drilling_.Run();
@@ -258,7 +257,7 @@ class Pass {
     Transfer(program, id, state);
     if (analysis::WaysOf(module_, module_.blocks[id]).conditional) Join({}, state, *before);
     if (state.cycle == kNoCycle || state.cycle == kCallers) return false;
-    for (const analysis::Edge& edge : graphs_.Of(program).Successors(id)) {
+    for (const analysis::Edge& edge : analyses_.Graphs().Of(program).Successors(id)) {
       if (edge.kind == analysis::EdgeKind::kReturn || edge.kind == analysis::EdgeKind::kReturnToTarget ||
           edge.kind == analysis::EdgeKind::kTextEnd)
         return true;
@@ -522,9 +521,8 @@ class Pass {
   const ExpandCyclesConfig& config_;
   diag::Sink& sink_;
   ExprBuilder make_;
-  analysis::FlowGraphs graphs_;
-  analysis::CallGraph calls_;
-  analysis::ModalFlow flow_;
+  analysis::FlowAnalyses analyses_;
+  const analysis::ModalFlow& flow_;
   analysis::ForwardFlow<Pass> drilling_;
   std::set<std::uint32_t> called_;  // programs
   ProgramId program_;

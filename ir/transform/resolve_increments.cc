@@ -3,9 +3,7 @@
 #include <cmath>
 #include <optional>
 
-#include "ir/analysis/call_graph.h"
-#include "ir/analysis/cfg.h"
-#include "ir/analysis/modal_state.h"
+#include "ir/analysis/flow_analyses.h"
 #include "ir/builder.h"
 
 namespace ncport::ir::transform {
@@ -22,9 +20,8 @@ class Pass {
         source_(source),
         sink_(sink),
         make_(module),
-        graphs_(module),
-        calls_(module),
-        flow_(module, source, graphs_, calls_, {source.start, sub_entry}) {}
+        analyses_(module, source, {source.start, sub_entry}),
+        flow_(analyses_.Modal()) {}
 
   bool Run() {
     for (const ProgramId program : module_.programs.Ids()) {
@@ -149,9 +146,8 @@ class Pass {
   const Machine& source_;
   diag::Sink& sink_;
   ExprBuilder make_;
-  analysis::FlowGraphs graphs_;
-  analysis::CallGraph calls_;
-  analysis::ModalFlow flow_;
+  analysis::FlowAnalyses analyses_;
+  const analysis::ModalFlow& flow_;
   ModalState state_;
   bool ok_ = true;
 };

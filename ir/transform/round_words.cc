@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "ir/analysis/call_graph.h"
-#include "ir/analysis/cfg.h"
-#include "ir/analysis/modal_state.h"
+#include "ir/analysis/flow_analyses.h"
 #include "ir/builder.h"
 #include "ir/transform/adapt_expressions.h"
 
@@ -19,9 +17,8 @@ class Pass {
       : module_(module),
         source_(source),
         sink_(sink),
-        graphs_(module),
-        calls_(module),
-        flow_(module, source, graphs_, calls_, {source.start, sub_entry}) {}
+        analyses_(module, source, {source.start, sub_entry}),
+        flow_(analyses_.Modal()) {}
 
   bool Run() {
     everywhere_ = ReadsPositions() || HasArcToPoint();
@@ -120,9 +117,8 @@ class Pass {
   Module& module_;
   const Machine& source_;
   diag::Sink& sink_;
-  analysis::FlowGraphs graphs_;
-  analysis::CallGraph calls_;
-  analysis::ModalFlow flow_;
+  analysis::FlowAnalyses analyses_;
+  const analysis::ModalFlow& flow_;
   ModalState state_;
   bool everywhere_ = false;
   bool changes_unit_ = false;

@@ -5,9 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ir/analysis/call_graph.h"
-#include "ir/analysis/cfg.h"
-#include "ir/analysis/modal_state.h"
+#include "ir/analysis/flow_analyses.h"
 #include "ir/builder.h"
 #include "ir/make_word.h"
 #include "ir/transform/mode_use.h"
@@ -47,9 +45,8 @@ class Pass {
         source_(source),
         sub_entry_(sub_entry),
         sink_(sink),
-        graphs_(module),
-        calls_(module),
-        flow_(module, source, graphs_, calls_, {source.start, sub_entry}) {}
+        analyses_(module, source, {source.start, sub_entry}),
+        flow_(analyses_.Modal()) {}
 
   bool Run() {
     FindChanges();
@@ -105,7 +102,7 @@ class Pass {
   /// themselves.
   void FindModal() {
     inside_.assign(module_.programs.Size(), false);
-    for (const analysis::CallSite& site : calls_.AllSites()) {
+    for (const analysis::CallSite& site : analyses_.Calls().AllSites()) {
       if (site.modal && site.callee.Valid() && module_.programs[site.callee].saves_modal_state)
         inside_[site.callee.value] = true;
     }
@@ -120,7 +117,7 @@ class Pass {
     for (std::size_t group = 0; group < std::size(kGroups); ++group) {
       if ((changes_[callee.value] >> group & 1U) == 0) continue;
       if (call.Valid() && IsSilent(kGroups[group].op) &&
-          !ModeIsUsedBehind(module_, graphs_, caller, call, kGroups[group].op))
+          !ModeIsUsedBehind(module_, analyses_.Graphs(), caller, call, kGroups[group].op))
         continue;
       const std::uint8_t value = kGroups[group].value(before);
       if (value == 0) {
@@ -143,7 +140,7 @@ class Pass {
       if (before.work_offset.extension != 0)
         made.value = ExprBuilder(module_).Literal(before.work_offset.extension, Type::kInt);
       words.push_back(made);
-    } else if (!call.Valid() || ModeIsUsedBehind(module_, graphs_, caller, call, WordOp::kWorkOffset)) {
+    } else if (!call.Valid() || ModeIsUsedBehind(module_, analyses_.Graphs(), caller, call, WordOp::kWorkOffset)) {
       Unknown("the work offset", at);
     }
     return words;
@@ -175,8 +172,8 @@ class Pass {
     ModalState start = source_.start;
     if (start.path == PathMode::kUnknown) return false;
     start.path = PathMode::kUnknown;
-    const analysis::ModalFlow chosen(module_, source_, graphs_, calls_, {start, sub_entry_});
-    for (const analysis::CallSite& site : calls_.AllSites()) {
+    const analysis::ModalFlow chosen(module_, source_, analyses_.Graphs(), analyses_.Calls(), {start, sub_entry_});
+    for (const analysis::CallSite& site : analyses_.Calls().AllSites()) {
       if (!site.callee.Valid() || !module_.programs[site.callee].saves_modal_state) continue;
       if ((changes_[site.callee.value] & kPathBit) == 0) continue;
       const PathMode before = site.modal ? chosen.Entry(site.callee).path : chosen.At(site.caller, site.block).path;
@@ -296,9 +293,8 @@ class Pass {
   const Machine& source_;
   const ModalState& sub_entry_;
   diag::Sink& sink_;
-  analysis::FlowGraphs graphs_;
-  analysis::CallGraph calls_;
-  analysis::ModalFlow flow_;
+  analysis::FlowAnalyses analyses_;
+  const analysis::ModalFlow& flow_;
   std::vector<std::uint32_t> changes_;
   std::vector<bool> inside_;  // per program: puts back what it found before it returns
   bool ok_ = true;

@@ -12,9 +12,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "ir/analysis/call_graph.h"
-#include "ir/analysis/cfg.h"
-#include "ir/analysis/modal_state.h"
+#include "ir/analysis/flow_analyses.h"
 #include "ir/block_words.h"
 #include "ir/builder.h"
 #include "ir/make_word.h"
@@ -40,14 +38,13 @@ class Pass {
   void Run() {
     SplitCalls();
     if (specialized_.empty()) return;
-    const analysis::FlowGraphs graphs(module_);
-    const analysis::CallGraph calls(module_);
-    const analysis::ModalFlow flow(module_, machine_, graphs, calls, {machine_.start, entry_});
+    const analysis::FlowAnalyses analyses(module_, machine_, {machine_.start, entry_});
     std::set<std::uint32_t> modal;
-    for (const analysis::CallSite& site : calls.AllSites()) {
+    for (const analysis::CallSite& site : analyses.Calls().AllSites()) {
       if (site.modal && site.callee.Valid() && machine_.modal_call_keeps_locals) modal.insert(site.callee.value);
     }
-    for (const ProgramId program : specialized_) Fit(program, graphs.Of(program), flow, modal.contains(program.value));
+    for (const ProgramId program : specialized_)
+      Fit(program, analyses.Graphs().Of(program), analyses.Modal(), modal.contains(program.value));
     DropParameters();
   }
 

@@ -24,6 +24,10 @@ bool ExplainJumpWithZeros(std::string_view line, LineError& error, std::string& 
 /// A character or word that the tokens do not know.
 void ExplainWord(std::string_view line, LineError& error, std::string& help);
 
+/// Card 1.2: a word at the place of a new name, in DEF or behind a type of PROC, that cannot be a name: an address, a
+/// number, an R parameter, other signs. True if that is so; the error is then the whole word.
+bool ExplainNewName(std::span<const Token> tokens, std::string_view line, LineError& error, std::string& help);
+
 /// Card 8.7: frames are chained with `:`. If another operator stands beside a function that makes a frame, it becomes
 /// the finding; `word` is the first word of the control that ncport does not translate.
 void ExplainFrameSign(std::string_view line, std::uint32_t word, LineError& error, std::string& help);

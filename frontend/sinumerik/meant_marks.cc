@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "frontend/common/chars.h"
 #include "frontend/sinumerik/word_slips.h"
 
 namespace ncport::frontend::sinumerik {
@@ -73,9 +74,13 @@ std::string_view MarkName(WordOp mark) {
 
 WordOp MeantMark(std::string_view word) {
   const ForeignWord* foreign = FindForeignWord(word);
-  const std::string_view meant = foreign != nullptr ? foreign->instead : NearStatementWord(word);
+  std::string_view meant = foreign != nullptr ? foreign->instead : NearStatementWord(word);
+  for (const Behind behind : {Behind::kAnything, Behind::kComparison, Behind::kTo}) {
+    const std::string split = AsRunTogether(word, behind);
+    if (!split.empty()) meant = word.substr(0, split.find(' '));
+  }
   for (const WordOp mark : kMarks) {
-    if (MarkName(mark) == meant) return mark;
+    if (IsWord(meant, MarkName(mark))) return mark;
   }
   return WordOp::kMotion;
 }

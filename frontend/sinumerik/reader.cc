@@ -212,6 +212,7 @@ class Reader {
     const std::span<const Token> tokens = source_.Tokens();
     if (source_.Error() != nullptr) {
       error_ = *source_.Error();
+      if (ExplainNewName(tokens, text, error_, help_)) return &error_;
       // `DEF REAL RND`: an address of several letters without `=`, where it was to be a name.
       if (error_.code == Code::kMissingValue && error_.length > 1 && !tokens.empty() &&
           static_cast<K>(tokens.front().kind) == K::kDef)
@@ -220,6 +221,8 @@ class Reader {
       return &error_;
     }
     if (const Token* refused = source_.Refused()) {
+      error_ = {.begin = refused->offset, .length = refused->length};
+      if (ExplainNewName(tokens, text, error_, help_)) return &error_;
       const bool other_language = IsWord(text.substr(refused->offset, refused->length), "G291");
       state_.other_language = other_language;
       // A word of the control where a definition wants a new name.
@@ -236,6 +239,7 @@ class Reader {
     const Recipe& recipe = recipes_.Of(tokens);
     if (recipe.failed) {
       error_ = ErrorOf(recipe.error, tokens);
+      if (ExplainNewName(tokens, text, error_, help_)) return &error_;
       if (error_.help == nullptr || error_.code == Code::kNotAlone) {
         ExplainSyntax(tokens, recipe.error.token, text, error_, help_);
       }

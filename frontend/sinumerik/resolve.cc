@@ -187,6 +187,8 @@ bool Resolver::UnknownName(ExprId id, std::string_view name) {
     finding.help = "did you mean $" + key + "?";
   } else if (const std::string mode = AsModeWithValue(name); !mode.empty()) {
     finding.help = "did you mean " + mode + "?";
+  } else if (const std::string split = AsRunTogetherInside(name); !split.empty()) {
+    finding.help = "a blank is missing: " + split;
   } else if (!address.empty()) {
     finding.help = "did you mean " + std::string(address) + "? A variable is declared with DEF";
   } else if (!near.empty()) {

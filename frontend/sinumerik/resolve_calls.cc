@@ -304,6 +304,17 @@ void Resolver::UnknownProgram(std::string_view name, const SourceRange& at) {
     if (!program.library) known.push_back(module_.View(program.name));
   }
   for (const std::string_view cycle : dialects::sinumerik::LibraryCycleNames()) known.push_back(cycle);
+  const auto is_known = [&](std::string_view callee) {
+    return std::ranges::any_of(known, [&](std::string_view one) { return IsWord(callee, UpperOf(one)); });
+  };
+  const auto jump_to_known = [&](const std::string& jump) {
+    // Where the jump word ends, the labels tell: GOTOF INISH or GOTO FINISH.
+    for (std::size_t word = 4; word < 6 && word < name.size(); ++word) {
+      if (labels_.contains(UpperOf(name.substr(word))))
+        return std::string(name.substr(0, word)) + " " + std::string(name.substr(word));
+    }
+    return jump;
+  };
   const std::string_view near = NearName(name, known);
   if (!near.empty()) {
     finding.help = "did you mean " + std::string(near) + "?";
@@ -314,7 +325,11 @@ void Resolver::UnknownProgram(std::string_view name, const SourceRange& at) {
   } else if (const std::string blank = AsWordAndAxis(name); !blank.empty()) {
     finding.help = "a blank is missing: " + blank;
   } else if (const std::string jump = AsJumpAndLabel(name); !jump.empty()) {
-    finding.help = "a blank is missing: " + jump;
+    finding.help = "a blank is missing: " + jump_to_known(jump);
+  } else if (const std::string split = AsRunTogether(name); !split.empty()) {
+    finding.help = "a blank is missing: " + split;
+  } else if (name.size() > 5 && IsWord(name.substr(0, 5), "MCALL") && is_known(name.substr(5))) {
+    finding.help = "a blank is missing: MCALL " + std::string(name.substr(5));
   } else if (const std::string_view word = NearStatementWord(name); !word.empty()) {
     finding.help = "did you mean " + std::string(word) + "?";
   } else {

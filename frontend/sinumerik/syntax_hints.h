@@ -98,6 +98,7 @@ class SyntaxHints {
   // words
   bool GroupIndex();
   bool JumpWithoutBlank();
+  bool RunTogether();
   bool Dwell();
   bool ForeignName();
   bool TornWord();

@@ -6,6 +6,7 @@
 #include "dialects/sinumerik/words.h"
 #include "frontend/common/chars.h"
 #include "frontend/sinumerik/syntax_hints.h"
+#include "frontend/sinumerik/word_slips.h"
 
 namespace ncport::frontend::sinumerik {
 
@@ -50,6 +51,7 @@ bool SyntaxHints::MissingType() {
       first == K::kProc && (Before() == K::kLeftParen || Before() == K::kComma || Before() == K::kVar);
   if (!definition && !parameter) return false;
   Put(Code::kExpectedText, at_, "a type");
+  if (const std::string split = AsTypeAndName(TextOf(at_)); !split.empty()) return Say("a blank is missing: {}", split);
   std::vector<std::string_view> types;
   for (const auto& row : words::Types()) types.push_back(row.text);
   std::string_view near = NearName(TextOf(at_), types);

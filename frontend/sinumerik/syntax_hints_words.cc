@@ -21,6 +21,25 @@ bool SyntaxHints::JumpWithoutBlank() {
   return Say("a blank is missing: {}", split);
 }
 
+// `IFR1>3`, `ENDIFG0`, `DEFREAL A_B`, `R1 ANDR2`: a word of the language and what follows run into one name.
+bool SyntaxHints::RunTogether() {
+  const auto missing = [&](std::size_t token, const std::string& split) {
+    if (split.empty()) return false;
+    Put(Code::kUnknownWord, token);
+    return Say("a blank is missing: {}", split);
+  };
+  const std::size_t first = First();
+  if (KindAt(first) == K::kName && at_ > first) {
+    Behind behind = Behind::kAnything;
+    if (Kind() >= K::kEqualTo && Kind() <= K::kGreaterEqual) behind = Behind::kComparison;
+    if (Kind() == K::kTo) behind = Behind::kTo;
+    if (Kind() == K::kOf) behind = Behind::kOf;
+    if (Kind() == K::kType || Kind() == K::kStringType) behind = Behind::kType;
+    if (missing(first, AsRunTogether(TextOf(first), behind))) return true;
+  }
+  return Kind() == K::kName && IsValue(Before()) && missing(at_, AsRunTogetherInside(TextOf(at_)));
+}
+
 // `G4 P500`, `G4 U2`: the letters of other controls for the time.
 bool SyntaxHints::Dwell() {
   if (at_ >= tokens_.size()) return false;

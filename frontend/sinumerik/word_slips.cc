@@ -200,12 +200,80 @@ std::string AsWordAndAxis(std::string_view word) {
   return {};
 }
 
-std::string AsJumpAndLabel(std::string_view word) {
-  for (const std::string_view jump : {"GOTOF", "GOTOB", "GOTOC", "GOTO"}) {
-    if (word.size() < jump.size() + 2 || !IsWord(word.substr(0, jump.size()), jump)) continue;
-    return std::string(word.substr(0, jump.size())) + " " + std::string(word.substr(jump.size()));
+namespace {
+
+/// `R1`, `G0`, `X10`, `N30`.
+bool IsAddressAndNumber(std::string_view word) {
+  return word.size() > 1 && IsLetter(word[0]) && std::all_of(word.begin() + 1, word.end(), IsDigit);
+}
+
+bool IsType(std::string_view word) {
+  return std::ranges::any_of(words::Types(), [&](const auto& row) { return IsWord(word, row.text); });
+}
+
+std::string Split(std::string_view word, std::size_t at) {
+  return std::string(word.substr(0, at)) + " " + std::string(word.substr(at));
+}
+
+}  // namespace
+
+std::string AsRunTogether(std::string_view word, Behind behind) {
+  struct First {
+    std::string_view text;
+    Behind behind;      // with which any name may have run into it
+    bool with_address;  // an address and its number show the slip, whatever follows
+  };
+  // Longer words stand in front of those that they begin with. Words that labels begin with (LOOP, FOR, IF) need more.
+  static constexpr First kFirst[] = {
+      {"ENDWHILE", Behind::kAnything, true}, {"ENDLOOP", Behind::kAnything, true}, {"ENDFOR", Behind::kAnything, true},
+      {"ENDIF", Behind::kAnything, true},    {"ELSE", Behind::kAnything, true},    {"STOPRE", Behind::kAnything, true},
+      {"SUPA", Behind::kAnything, true},     {"ATRANS", Behind::kAnything, true},  {"TRANS", Behind::kAnything, true},
+      {"AMIRROR", Behind::kAnything, true},  {"MIRROR", Behind::kAnything, true},  {"ASCALE", Behind::kAnything, true},
+      {"SCALE", Behind::kAnything, true},    {"AROT", Behind::kAnything, true},    {"WHILE", Behind::kComparison, true},
+      {"UNTIL", Behind::kComparison, true},  {"IF", Behind::kComparison, false},   {"FOR", Behind::kTo, false},
+      {"CASE", Behind::kOf, true},           {"PROC", Behind::kType, false},       {"EXTERN", Behind::kType, false},
+  };
+  if (IsWord(word.substr(0, 3), "DEF") && IsType(word.substr(std::min<std::size_t>(3, word.size()))))
+    return Split(word, 3);
+  for (const First& first : kFirst) {
+    if (word.size() < first.text.size() + 2 || !IsWord(word.substr(0, first.text.size()), first.text)) continue;
+    const bool any = behind != Behind::kAnything && behind == first.behind;
+    if (any || (first.with_address && IsAddressAndNumber(word.substr(first.text.size()))))
+      return Split(word, first.text.size());
   }
   return {};
+}
+
+std::string AsRunTogetherInside(std::string_view word) {
+  for (const std::string_view first :
+       {"B_AND", "B_XOR", "B_OR", "B_NOT", "AND", "XOR", "NOT", "MOD", "DIV", "OR", "TO", "OF"}) {
+    if (word.size() <= first.size() || !IsWord(word.substr(0, first.size()), first)) continue;
+    const std::string_view rest = word.substr(first.size());
+    if (IsAddressAndNumber(rest) || std::all_of(rest.begin(), rest.end(), IsDigit)) return Split(word, first.size());
+  }
+  return {};
+}
+
+std::string AsTypeAndName(std::string_view word) {
+  // Types of other languages are one word.
+  for (const std::string_view type : {"INTEGER", "BOOLEAN", "CHARACTER"}) {
+    if (IsWord(word, type)) return {};
+  }
+  for (const auto& row : words::Types()) {
+    const std::string_view type = row.text;
+    if (word.size() >= type.size() + 2 && IsWord(word.substr(0, type.size()), type) && IsLetter(word[type.size()]))
+      return Split(word, type.size());
+  }
+  return {};
+}
+
+std::string AsJumpAndLabel(std::string_view word) {
+  std::string jumps;
+  for (const std::string_view jump : {"GOTOF", "GOTOB", "GOTOC", "GOTO"}) {
+    if (word.size() < jump.size() + 2 || !IsWord(word.substr(0, jump.size()), jump)) continue;
+    jumps += (jumps.empty() ? "" : " or ") + Split(word, jump.size());
+  }
+  return jumps;
 }
 
 }  // namespace ncport::frontend::sinumerik

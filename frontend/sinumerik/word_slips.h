@@ -1,6 +1,7 @@
 // What a wrong word was probably meant to be. Texts in, texts out: nothing here decides whether a block is right.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -53,7 +54,24 @@ std::string AsAddressWithValue(std::string_view word);
 std::string AsModeWithValue(std::string_view word);
 /// `TRANSX10`: a word that begins a block and an axis word, with the blank between them. Empty: no such word.
 std::string AsWordAndAxis(std::string_view word);
-/// `GOTOFREADY`: a jump word and its label, with the blank between them. Empty: no such word.
+/// What stands behind the first word of a block, for words that the next one runs into.
+enum class Behind : std::uint8_t {
+  kAnything,    // only what no name looks like may have run into the word: an address with its number
+  kComparison,  // a comparison or GOTO: IF, WHILE, UNTIL
+  kTo,          // TO: FOR
+  kOf,          // OF: CASE
+  kType,        // a type in brackets: PROC, EXTERN
+};
+/// `WHILER1`, `ENDIFG0`, `DEFREAL`: the first word of a block and what ran into it, with the blank between them. Empty:
+/// no such word.
+std::string AsRunTogether(std::string_view word, Behind behind = Behind::kAnything);
+/// `TO3`, `ANDR1`: the same with a word inside of a block.
+std::string AsRunTogetherInside(std::string_view word);
+/// `REALX_A`: a type and a name. Empty: no such word.
+std::string AsTypeAndName(std::string_view word);
+
+/// `GOTOFREADY`: a jump word and its label, with the blank between them, in all ways that there are. Empty: no such
+/// word.
 std::string AsJumpAndLabel(std::string_view word);
 
 }  // namespace ncport::frontend::sinumerik

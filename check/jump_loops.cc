@@ -1,6 +1,9 @@
 // Loops of the form LABEL .. IF condition GOTO LABEL whose condition cannot change any more once it holds.
+#include <fmt/format.h>
+
 #include <optional>
 
+#include "check/endings.h"
 #include "check/loop_drift.h"
 #include "check/value_rules.h"
 
@@ -86,6 +89,9 @@ class JumpLoops final : public ValueRule {
       drift.Explain(sink.Report(never ? diag::Code::kJumpNeverTaken : diag::Code::kEndlessLoop, at), stays, never);
     } else if (course == Course::kStill && always) {
       sink.Report(diag::Code::kEndlessLoop, at).notes.push_back({{}, "nothing in it changes the condition"});
+    } else if (always && !MayEndInside(input_.module, first, id)) {
+      sink.Report(diag::Code::kEndlessLoop, at)
+          .notes.push_back({{}, fmt::format("the condition is {} in each pass", stays ? "true" : "false")});
     }
   }
 

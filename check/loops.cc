@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "check/endings.h"
 #include "check/expressions.h"
 #include "check/loop_drift.h"
 #include "check/place_changes.h"
@@ -124,6 +125,11 @@ class Loops final : public ValueRule {
         drift.Explain(sink.Report(diag::Code::kEndlessLoop, at), loop.goes_on);
         return;
       }
+    }
+    if (always && !MayEndInside(input_.module, loop.first, loop.last)) {
+      sink.Report(diag::Code::kEndlessLoop, at)
+          .notes.push_back({{}, fmt::format("the condition is {} in each pass", loop.goes_on ? "true" : "false")});
+      return;
     }
     const std::string missed =
         Missed(loop.program, loop.first, loop.last, loop.test, loop.goes_on ? ExprOp::kNotEqual : ExprOp::kEqual);

@@ -13,6 +13,22 @@ namespace ncport::frontend::sinumerik {
 using diag::Code;
 namespace words = dialects::sinumerik;
 
+namespace {
+
+bool IsNameSign(char sign) { return IsLetter(sign) || IsDigit(sign) || sign == '_'; }
+
+/// In `X,1 Y,2` the place of Y, if `at` is the blank before it; else npos. An operator of letters has no comma behind.
+std::size_t AxisWithoutComma(std::string_view line, std::size_t at) {
+  const std::size_t axis = line.find_first_not_of(" \t", at);
+  if (axis == std::string_view::npos || axis == at || !IsNameSign(line[at - 1]) || !IsLetter(line[axis]))
+    return std::string_view::npos;
+  std::size_t end = axis;
+  while (end < line.size() && IsNameSign(line[end])) ++end;
+  return end < line.size() && line[end] == ',' ? axis : std::string_view::npos;
+}
+
+}  // namespace
+
 void ExplainFrameSign(std::string_view line, std::uint32_t word, LineError& error, std::string& help) {
   constexpr std::string_view kFrames[] = {"CTRANS", "CROT", "CSCALE", "CMIRROR", "CFINE", "CROTS", "CRPL"};
   constexpr std::string_view kOperators = "+-*/";
@@ -24,7 +40,7 @@ void ExplainFrameSign(std::string_view line, std::uint32_t word, LineError& erro
   line = line.substr(0, line.find(';'));
   for (std::size_t at = word; at < line.size();) {
     std::size_t end = at;
-    while (end < line.size() && (IsLetter(line[end]) || IsDigit(line[end]) || line[end] == '_')) ++end;
+    while (end < line.size() && IsNameSign(line[end])) ++end;
     if (end == at) {
       ++at;
       continue;
@@ -40,11 +56,22 @@ void ExplainFrameSign(std::string_view line, std::uint32_t word, LineError& erro
       int depth = 0;
       std::size_t close = open;
       for (; close < line.size(); ++close) {
+        if (const std::size_t axis = AxisWithoutComma(line, close); axis != std::string_view::npos) {
+          wrong(axis);
+          help = "a comma stands between axis and value";
+          error.help = help.c_str();
+          return;
+        }
         if (line[close] == '(') ++depth;
         if (line[close] == ')' && --depth == 0) break;
       }
       const std::size_t next = close < line.size() ? line.find_first_not_of(" \t", close + 1) : std::string_view::npos;
-      if (next != std::string_view::npos && kOperators.find(line[next]) != std::string_view::npos) return wrong(next);
+      if (next != std::string_view::npos) {
+        const bool glued = IsNameSign(line[next]) || line[next] == '$' || line[next] == '(';
+        if (glued || kOperators.find(line[next]) != std::string_view::npos) return wrong(next);
+        if (line[next] == ':' && line.find_first_not_of(" \t\r", next + 1) == std::string_view::npos)
+          return wrong(next);
+      }
       end = close;
     }
     at = std::max(end, at + 1);

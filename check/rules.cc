@@ -31,6 +31,7 @@ void CheckPrograms(const Subject& subject, diag::Sink& sink) {
   CheckCallDepth(subject, sink);
   CheckFeedKind(subject, sink);
   CheckSpindleSpeed(subject, sink);
+  CheckCompensation(subject, sink);
 }
 
 }  // namespace ncport::check

@@ -77,5 +77,9 @@ void CheckFeedKind(const Subject& subject, diag::Sink& sink);
 /// NC5003: a feed move behind a new speed with which nothing starts the spindle, or behind a start for which no way
 /// sets a speed; the latter stands at the start.
 void CheckSpindleSpeed(const Subject& subject, diag::Sink& sink);
+/// NC5009: cutter compensation begins or ends in an arc; also where the first move of the plane behind a lone switch is
+/// one, on every way. NC5010: it begins while no way names a tool, or D0 is in force. NC5011: it is on, on every way,
+/// where the tool or the plane changes or the program ends.
+void CheckCompensation(const Subject& subject, diag::Sink& sink);
 
 }  // namespace ncport::check

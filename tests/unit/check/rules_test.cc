@@ -298,6 +298,51 @@ TEST_CASE("feed moves of a spindle that was not started, or has no speed") {
   CHECK(Mill("M3\nIF R1>0\nS500\nENDIF\nG1 X5 F100\nM30\n").empty());
 }
 
+TEST_CASE("cutter compensation that begins or ends in an arc") {
+  const std::string tool = "G17 G90 S900 M3 F200\nT1 M6\nD1\nG0 X0 Y0\n";
+  CHECK(Mill(tool + "G41 G2 X9 Y9 CR=9\nG40 G1 X20\nM30\n") == "NC5009 5");
+  CHECK(Mill(tool + "G42\nG2 I9\nG40 G1 X20\nM30\n") == "NC5009 6");
+  CHECK(Mill(tool + "G2 X9 Y9 CR=9\nG41 X0 Y0 CR=9\nG40 G1 X20\nM30\n") == "NC5009 6");
+  CHECK(Mill(tool + "G41\nG0 Z-5\nG2 X9 Y9 CR=9\nG40 G1 X20\nM30\n") == "NC5009 7");
+  CHECK(Mill(tool + "G41 X5\nG40 G2 X9 Y9 CR=9\nG1 X20\nM30\n") == "NC5009 6");
+  CHECK(Mill(tool + "IF R1>0\nG41\nELSE\nG42\nENDIF\nG2 X9 Y9 CR=9\nG40 G1 X20\nM30\n") == "NC5009 10");
+  CHECK(Mill(tool + "G41 X5\nG2 X9 Y9 CR=9\nG42 X0 Y0 CR=9\nG40 G1 X20\nM30\n").empty());
+  CHECK(Mill(tool + "G40 G2 X9 Y9 CR=9\nG41\nG40\nG2 X0 Y0 CR=9\nM30\n").empty());
+  // Some way begins it, or what does is not known.
+  CHECK(Mill(tool + "G41\nIF R1>0\nG1 X5\nENDIF\nG2 X9 Y9 CR=9\nG40 G1 X20\nM30\n").empty());
+  CHECK(Mill(tool + "G41\nM99=1\nG74 X0\nG2 X9 Y9 CR=9\nG40 G1 X20\nM30\n").find("NC5009") == std::string::npos);
+  CHECK(Sub("G17 G90 F200\nG41 G2 X9 Y9 CR=9\nG40 G1 X20\nM17\n").empty());
+  CHECK(Mill("%_N_MA_MPF\n" + tool + "G41\nUPA\nG40 G1 X30\nM30\n%_N_UPA_SPF\nG2 X9 Y9 CR=9\nM17\n") == "NC5009 11");
+}
+
+TEST_CASE("cutter compensation without a tool") {
+  CHECK(Mill("G17 G90 S900 M3\nG41 G1 X5 F100\nG40 X9\nM30\n") == "NC5010 2");
+  CHECK(Mill("G17 G90 S900 M3\nG41\nG0 Z5\nG1 X5 F100\nG40 X9\nM30\n") == "NC5010 2");
+  CHECK(Mill("T1 M6\nD0\nG17 G90 S900 M3\nG41 G1 X5 F100\nG40 X9\nM30\n") == "NC5010 4");
+  CHECK(Macro("O1\nG17 G90 G40 G49\nS900 M3\nG41 G1 X5. F100.\nG40 X9.\nM30\n") == "NC5010 4");
+  CHECK(Mill("T1 M6\nD0\nT2 M6\nG17 G90 S900 M3\nG41 G1 X5 F100\nG40 X9\nM30\n").empty());
+  CHECK(Mill("G17 G90 S900 M3\nG41 D1 G1 X5 F100\nG40 X9\nM30\n").empty());
+  CHECK(Mill("G17 G90 S900 M3\nIF R1>0\nT5 M6\nENDIF\nG41 G1 X5 F100\nG40 X9\nM30\n").empty());
+  CHECK(Mill("G17 G90 S900 M3\n$TC_DP6[1,1]=5\nG41 G1 X5 F100\nG40 X9\nM30\n").empty());
+  CHECK(Mill("G17 G90 S900 M3\nMY_TOOL_CHANGE\nG41 G1 X5 F100\nG40 X9\nM30\n").find("NC5010") == std::string::npos);
+  CHECK(Mill("G17 G90 S900 M3 M110\nG41 G1 X5 F100\nG40 X9\nM30\n").empty());
+  CHECK(Sub("G17 G90\nG41 G1 X5 F100\nG40 X9\nM17\n").empty());
+  CHECK(Macro("O1\nG17 G90\nS900 M3\nG41 D#1 G1 X5. F100.\nG40 X9.\nM30\n").find("NC5010") == std::string::npos);
+}
+
+TEST_CASE("cutter compensation that is still on") {
+  const std::string on = "T1 M6\nD1\nG17 G90 S900 M3\nG41 G1 X5 F100\n";
+  CHECK(Mill(on + "M30\n") == "NC5011 5");
+  CHECK(Mill(on + "T2 M6\nD1\nG40 X9\nM30\n") == "NC5011 5");
+  CHECK(Lathe("T1 D1\nG18 G90 G95 S900 M3\nG42 G1 X5 F0.1\nT2 D1\nG40 X9\nM30\n") == "NC5011 4");
+  CHECK(Mill(on + "G18\nG40 X9\nM30\n") == "NC5011 5");
+  CHECK(Mill(on + "T2\nG40 X9\nM6\nM30\n").empty());
+  CHECK(Mill(on + "IF R1>0\nG40 X9\nENDIF\nM30\n").empty());
+  CHECK(Mill(on + "G40 G18 X9\nM30\n").empty());
+  CHECK(Mill("T1 M6\nD1\nG17 G90 S900 M3\nG41\nG18\nG1 X5 F100\nG40 X9\nM30\n").empty());
+  CHECK(Sub("G17 G90\nG41 D1 G1 X5 F100\nM17\n").empty());
+}
+
 TEST_CASE("modal calls that are still in force") {
   const std::string call = "S1000 M3 F100\nG0 X0 Y0 Z20\nMCALL CYCLE81(10,0,2,-5)\nX10 Y10\n";
   CHECK(Mill(call + "G0 Z50\nM30\n") == "NC4014 5");

@@ -32,6 +32,7 @@ void CheckPrograms(const Subject& subject, diag::Sink& sink) {
   CheckFeedKind(subject, sink);
   CheckSpindleSpeed(subject, sink);
   CheckCompensation(subject, sink);
+  CheckFrameArcs(subject, sink);
 }
 
 }  // namespace ncport::check

@@ -81,5 +81,7 @@ void CheckSpindleSpeed(const Subject& subject, diag::Sink& sink);
 /// one, on every way. NC5010: it begins while no way names a tool, or D0 is in force. NC5011: it is on, on every way,
 /// where the tool or the plane changes or the program ends.
 void CheckCompensation(const Subject& subject, diag::Sink& sink);
+/// NC5012: an arc in a plane whose axes the frame scales by different factors, on every way.
+void CheckFrameArcs(const Subject& subject, diag::Sink& sink);
 
 }  // namespace ncport::check

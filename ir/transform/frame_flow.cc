@@ -98,11 +98,13 @@ struct FrameFlow::Client {
 
   const FrameFlow& flow;
   const std::vector<bool>& restores;
+  bool only_matrix;
   std::vector<bool> sets;          // per program: it or a program below has frame words
   std::vector<bool> from_outside;  // per program: its callers are not known
 
   static FrameState Anything() { return {FrameState::Kind::kUnknown, false, {}}; }
-  static FrameState Elsewhere(const FrameState& state) {
+  [[nodiscard]] FrameState Elsewhere(const FrameState& state) const {
+    if (only_matrix) return state;
     return state.kind == FrameState::Kind::kKnown && state.untouched ? state : Anything();
   }
   [[nodiscard]] bool Keeps(ProgramId program) const { return !sets[program.value] || restores[program.value]; }
@@ -123,6 +125,8 @@ struct FrameFlow::Client {
     return true;
   }
   void Transfer(ProgramId program, BlockId block, State& state) const {
+    // What a block that was not understood does to the frame is not known. Translations see none.
+    if ((flow.module_.blocks[block].flags & Block::kRefused) != 0) state = Anything();
     if (flow.FrameWord(block) != nullptr) state = flow.Apply(program, block, state, nullptr);
   }
   [[nodiscard]] std::optional<State> Into(const analysis::CallSite&, analysis::CallMoment moment,
@@ -141,7 +145,7 @@ FrameFlow::FrameFlow(const Module& module, const Machine& machine, const analysi
     : module_(module), machine_(machine), modes_(modes) {
   std::vector<bool> restores = options.restores;
   restores.resize(module.programs.Size(), false);
-  Client client{*this, restores, std::vector<bool>(module.programs.Size(), false),
+  Client client{*this, restores, options.only_matrix, std::vector<bool>(module.programs.Size(), false),
                 std::vector<bool>(module.programs.Size(), false)};
   for (const ProgramId program : module.programs.Ids()) {
     client.from_outside[program.value] = module.programs[program].kind != ProgramKind::kMain;

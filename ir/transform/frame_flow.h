@@ -51,6 +51,8 @@ struct FrameState {
 struct FrameFlowOptions {
   /// Programs that put the frame of their caller back, by number.
   std::vector<bool> restores;
+  /// The matrix is all that is asked for: it is the same in a called program, where an expression of the shift is not.
+  bool only_matrix = false;
 };
 
 class FrameFlow {

@@ -343,6 +343,24 @@ TEST_CASE("cutter compensation that is still on") {
   CHECK(Sub("G17 G90\nG41 D1 G1 X5 F100\nM17\n").empty());
 }
 
+TEST_CASE("arcs under different scale factors") {
+  const std::string start = "G17 G90 S900 M3 F100\nG0 X0 Y0\n";
+  CHECK(Mill(start + "SCALE X2 Y3\nG2 X9 Y9 CR=9\nSCALE\nM30\n") == "NC5012 4");
+  CHECK(Mill(start + "SCALE X2 Y2\nAROT Z30\nASCALE X2\nG2 X9 Y9 CR=9\nSCALE\nM30\n") == "NC5012 6");
+  CHECK(Mill(start + "SCALE X2 Z2\nIF R1>0\nATRANS X=R1\nENDIF\nG2 X9 Y9 CR=9\nSCALE\nM30\n") == "NC5012 7");
+  // Under the frame of the caller, and behind a program that puts it back.
+  CHECK(Mill("%_N_MA_MPF\n" + start + "SCALE X2\nUPA\nSCALE\nM30\n%_N_UPA_SPF\nG2 X9 Y9 CR=9\nM17\n") == "NC5012 9");
+  CHECK(Mill("%_N_MA_MPF\n" + start + "UPA\nG2 X9 Y9 CR=9\nM30\n%_N_UPA_SPF\nPROC UPA SAVE\nSCALE X2\nM17\n").empty());
+  CHECK(Mill("%_N_MA_MPF\n" + start + "UPA\nG2 X9 Y9 CR=9\nM30\n%_N_UPA_SPF\nPROC UPA\nSCALE X2\nM17\n") == "NC5012 5");
+  CHECK(Mill(start + "SCALE X2 Y2 Z3\nG2 X9 Y9 CR=9\nSCALE\nM30\n").empty());
+  CHECK(Mill(start + "SCALE X-2 Y2\nG2 X9 Y9 CR=9\nSCALE\nM30\n").empty());
+  CHECK(Mill(start + "ROT X30\nASCALE X2 Y2\nG2 X9 Y9 CR=9\nROT\nM30\n").empty());
+  CHECK(Mill(start + "SCALE X2 Y=R2\nG2 X9 Y9 CR=9\nSCALE\nM30\n").empty());
+  CHECK(Mill(start + "IF R1>0\nSCALE X2\nENDIF\nG2 X9 Y9 CR=9\nSCALE\nM30\n").empty());
+  // What a program does that is not here.
+  CHECK(Mill(start + "SCALE X2\nUPB\nG2 X9 Y9 CR=9\nSCALE\nM30\n").find("NC5012") == std::string::npos);
+}
+
 TEST_CASE("modal calls that are still in force") {
   const std::string call = "S1000 M3 F100\nG0 X0 Y0 Z20\nMCALL CYCLE81(10,0,2,-5)\nX10 Y10\n";
   CHECK(Mill(call + "G0 Z50\nM30\n") == "NC4014 5");

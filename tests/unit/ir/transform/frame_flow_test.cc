@@ -23,7 +23,7 @@ TEST_CASE("matrices: a rotation about Z, the way back, and what stays a circle")
 }
 
 struct Flow {
-  explicit Flow(std::string_view text, std::vector<bool> restores = {}) {
+  explicit Flow(std::string_view text, std::vector<bool> restores = {}, bool only_matrix = false) {
     Result<Module> parsed = ParseDump(std::string("ncport-ir 1\nfile m\n") + std::string(text), sink);
     REQUIRE(parsed.Ok());
     module = parsed.Value();
@@ -33,6 +33,7 @@ struct Flow {
     modes.emplace(module, machine, *graphs, *calls, analysis::ModalOptions{machine.start, {}});
     FrameFlowOptions options;
     options.restores = std::move(restores);
+    options.only_matrix = only_matrix;
     frames.emplace(module, machine, *graphs, *calls, *modes, options);
   }
   FrameState Before(std::uint32_t program, std::uint32_t block) const {
@@ -109,6 +110,26 @@ TEST_CASE("a modal call leaves its frame behind each block with motion, until it
   CHECK(flow.Before(1, 0).kind == FrameState::Kind::kUnknown);
   const Flow saved(std::string(caller) + std::string(sub), {false, true});
   CHECK(saved.Before(0, 3).untouched);
+}
+
+TEST_CASE("a matrix alone goes along into called programs and back") {
+  const std::string text =
+      "program M main @m:0\n  @m:1 : frame scale; axis X = 2\n  @m:2 : call name SUB calls SUB\n  @m:3 : axis X = 1\n"
+      "  @m:4 : program-end #30\n"
+      "program SUB sub @m:10\n  @m:11 : axis X = 1\n  @m:12 : frame add-scale; axis Y = 3\n  @m:13 : return plain\n";
+  CHECK(Flow(text).Before(1, 0).kind == FrameState::Kind::kUnknown);
+  const Flow flow(text, {}, true);
+  CHECK(flow.Before(1, 0).matrix == FrameMatrix{}.Scaled(0, 2));
+  CHECK(flow.Before(0, 2).matrix == FrameMatrix{}.Scaled(0, 2).Scaled(1, 3));
+}
+
+TEST_CASE("behind a block that was not understood the frame is not known, up to a word that replaces it") {
+  const Flow flow(
+      "program M main @m:0\n  @m:1 : frame scale; axis X = 2\n  @m:2 refused : verbatim \"F[X]=1\"\n"
+      "  @m:3 : axis X = 1\n  @m:4 : frame scale; axis Y = 2\n  @m:5 : program-end #30\n");
+  CHECK(flow.Before(0, 1).kind == FrameState::Kind::kKnown);
+  CHECK(flow.Before(0, 2).kind == FrameState::Kind::kUnknown);
+  CHECK(flow.Before(0, 4).matrix == FrameMatrix{}.Scaled(1, 2));
 }
 
 }  // namespace

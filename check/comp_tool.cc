@@ -19,13 +19,17 @@ using ir::WordOp;
 // What was named last on the ways to a block: a set of these.
 constexpr std::uint8_t kNothing = 1;
 constexpr std::uint8_t kNoRadius = 2;  // D0
-constexpr std::uint8_t kTool = 4;      // or something that may have named one
+constexpr std::uint8_t kTool = 4;      // with its radius; or something that may have named one
+constexpr std::uint8_t kToolOnly = 8;  // and no register for its radius
 
 class ToolFlow {
  public:
   using State = std::uint8_t;
 
-  explicit ToolFlow(const Subject& subject) : subject_(subject), module_(subject.module) {}
+  explicit ToolFlow(const Subject& subject)
+      : module_(subject.module),
+        registers_(subject.profile.fanuc.variant.Is(dialects::FanucSettings::Variant::kFanuc) &&
+                   !subject.profile.words.radius_offset.Or("").empty()) {}
 
   State Entry(ProgramId program) const {
     // What nothing here calls is called with a tool.
@@ -45,17 +49,17 @@ class ToolFlow {
       switch (word.op) {
         case WordOp::kTool:
         case WordOp::kToolChange:
-        case WordOp::kToolOffset:
-          state = kTool;
+          NameTool(state);
           break;
         case WordOp::kLengthOffset:
           // Without a value it only switches an offset on or off.
-          if (word.value.Valid()) state = kTool;
+          if (word.value.Valid()) NameTool(state);
           break;
         case WordOp::kEdge:
         case WordOp::kRadiusOffset:
           state = LiteralValue(module_, word.value) == 0.0 ? kNoRadius : kTool;
           break;
+        case WordOp::kToolOffset:
         case WordOp::kDataSetting:
           state = kTool;
           break;
@@ -71,14 +75,33 @@ class ToolFlow {
   }
 
  private:
+  /// A tool brings its radius with it, but not where the radius stands in registers of their own.
+  void NameTool(State& state) const {
+    if (!registers_)
+      state = kTool;
+    else if ((state & kNothing) != 0)
+      state = static_cast<State>((state & ~kNothing) | kToolOnly);
+  }
+
   [[nodiscard]] bool WritesSystem(const ir::Word& word) const {
     const auto place = word.Extra<ir::ExprId>();
     return !place.Valid() || module_.exprs[place].op == ir::ExprOp::kSystem;
   }
 
-  const Subject& subject_;
   const ir::Module& module_;
+  bool registers_;  // D names the register of the radius, whatever the tool (fanuc-8.1)
 };
+
+struct Wording {
+  const char* how;
+  const char* help;
+};
+Wording WordingOf(std::uint8_t named) {
+  if (named == kNoRadius) return {"without a radius", "D0 is in force on every way here: select the tool's D"};
+  if ((named & kToolOnly) != 0)
+    return {"without a radius", "no block on the way here names the register of the tool's radius: write D"};
+  return {"without a tool", "no block on the way here names a tool or its D: write them in front of it"};
+}
 
 }  // namespace
 
@@ -99,12 +122,10 @@ void CheckCompTool(const Subject& subject, const CompFlow& comp, diag::Sink& sin
       std::uint8_t tool = *named;
       client.Transfer(program, id, tool);
       if ((tool & kTool) != 0) continue;
-      const bool zero = tool == kNoRadius;
-      diag::Diagnostic& finding =
-          sink.Report(diag::Code::kCompensationWithoutTool, subject.PlaceOf(at.switched, *comp.Switch(at.switched)),
-                      zero ? "without a radius" : "without a tool");
-      finding.help = zero ? "D0 is in force on every way here: select the tool's D"
-                          : "no block on the way here names a tool or its D: write them in front of it";
+      const Wording wording = WordingOf(tool);
+      sink.Report(diag::Code::kCompensationWithoutTool, subject.PlaceOf(at.switched, *comp.Switch(at.switched)),
+                  wording.how)
+          .help = wording.help;
       break;  // once a program: the next ones lack the same word
     }
   }

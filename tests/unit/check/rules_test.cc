@@ -320,6 +320,11 @@ TEST_CASE("cutter compensation without a tool") {
   CHECK(Mill("G17 G90 S900 M3\nG41\nG0 Z5\nG1 X5 F100\nG40 X9\nM30\n") == "NC5010 2");
   CHECK(Mill("T1 M6\nD0\nG17 G90 S900 M3\nG41 G1 X5 F100\nG40 X9\nM30\n") == "NC5010 4");
   CHECK(Macro("O1\nG17 G90 G40 G49\nS900 M3\nG41 G1 X5. F100.\nG40 X9.\nM30\n") == "NC5010 4");
+  // Registers of the radius have their own word.
+  const std::string register_of = "O1\nG17 G90 G40\nT1 M6\nG43 H1 Z50.\nS900 M3\n";
+  CHECK(Macro(register_of + "G41 G1 X5. F100.\nG40 X9.\nM30\n") == "NC5010 6");
+  CHECK(Macro(register_of + "G41 D1 G1 X5. F100.\nG40 X9.\nT2 M6\nS900 M3\nG41 X5.\nG40 X9.\nM30\n").empty());
+  CHECK(Findings("haas-mill", "o1.nc", register_of + "G41 G1 X5. F100.\nG40 X9.\nM30\n").empty());
   CHECK(Mill("T1 M6\nD0\nT2 M6\nG17 G90 S900 M3\nG41 G1 X5 F100\nG40 X9\nM30\n").empty());
   CHECK(Mill("G17 G90 S900 M3\nG41 D1 G1 X5 F100\nG40 X9\nM30\n").empty());
   CHECK(Mill("G17 G90 S900 M3\nIF R1>0\nT5 M6\nENDIF\nG41 G1 X5 F100\nG40 X9\nM30\n").empty());

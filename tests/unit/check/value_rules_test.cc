@@ -212,7 +212,9 @@ TEST_CASE("value rules: a counter that steps over the value that ends its loop")
   CHECK(Mill("R4=10\nREPEAT\nR4=R4-3\nIF R4<0 GOTOF AB\nUNTIL R4==0\nAB: M30\n").empty());
   CHECK(Mill("R4=10\nIF R1>0\nR4=9\nENDIF\nREPEAT\nR4=R4-3\nUNTIL R4==0\nM30\n").empty());
   CHECK(Mill("R4=10\nAB:\nREPEAT\nR4=R4-3\nUNTIL R4==0\nIF R5>0\nR4=9\nGOTOB AB\nENDIF\nM30\n").empty());
-  CHECK(Mill("DEF INT CNT=0\nWHILE CNT<>2\nCNT=CNT+0.4\nENDWHILE\nM30\n").find("NC4007") == std::string::npos);
+  // An INT rounds 0.4 away and stays 0; 0.6 makes 1.
+  CHECK(Mill("DEF INT CNT=0\nWHILE CNT<>2\nCNT=CNT+0.4\nENDWHILE\nM30\n").find("NC4007") != std::string::npos);
+  CHECK(Mill("DEF INT CNT=0\nWHILE CNT<>2\nCNT=CNT+0.6\nENDWHILE\nM30\n").find("NC4007") == std::string::npos);
   CHECK(Check("sinumerik-840d-mill", {{"a.mpf", "R4=10\nREPEAT\nR4=R4-3\nUNTIL R4==0\nM30\n"}})
             .notes.find("it counts 10, 7, 4 and so on, never exactly 0") != std::string::npos);
 }
@@ -220,7 +222,8 @@ TEST_CASE("value rules: a counter that steps over the value that ends its loop")
 TEST_CASE("value rules: comparisons beside logic without brackets") {
   CHECK(Mill("IF R1==1 AND R2==1 GOTOF AB\nAB: M30\n") == "NC4010 1");
   CHECK(Mill("IF NOT R1==5 GOTOF AB\nAB: M30\n") == "NC4010 1");
-  CHECK(Mill("WHILE R1<5 OR R2<5\nR1=R1+1\nR2=R2+1\nENDWHILE\nM30\n") == "NC4010 1");
+  // R1 < (5 OR R2) < 5 compares 0 or 1 with 5: it always holds.
+  CHECK(Mill("WHILE R1<5 OR R2<5\nR1=R1+1\nR2=R2+1\nENDWHILE\nM30\n") == "NC4007 1, NC4010 1");
   CHECK(Mill("IF (R1==1) AND (R2==1) GOTOF AB\nAB: M30\n").empty());
   CHECK(Mill("IF NOT (R1==5) GOTOF AB\nAB: M30\n").empty());
   CHECK(Macro("O1\nIF [[#1 EQ 1] AND [#2 EQ 1]] GOTO 10\nN10 M30\n").empty());

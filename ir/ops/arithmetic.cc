@@ -68,9 +68,10 @@ double TruncateToIncrement(double value, double increment) {
 }
 
 double ApplyModel(double value, NumericModel model) {
-  return model == NumericModel::kDecimal8 && value != std::trunc(value) ? Significant(value, 8)
-         : model == NumericModel::kDecimal8 && std::fabs(value) >= 1e8  ? Significant(value, 8)
-                                                                        : value;
+  const int digits = ResultDigits(model);
+  if (digits == 0) return value;
+  // Whole numbers with no more digits than these are themselves.
+  return value != std::trunc(value) || std::fabs(value) >= 1e8 ? Significant(value, digits) : value;
 }
 
 Number Store(double value, NumericModel model) {

@@ -53,6 +53,9 @@ IncrementSteps StepsOf(double increment);
 /// As RoundToIncrement, but cuts toward zero. A value that is a multiple but for binary noise keeps it.
 double TruncateToIncrement(double value, double increment);
 
+/// Significant decimal digits that each result keeps; 0: all that a double holds.
+constexpr int ResultDigits(NumericModel model) { return model == NumericModel::kDecimal8 ? 8 : 0; }
+
 /// Result of an operation on a control that does not keep every digit. kNum8 keeps values as they are: it cuts at
 /// stores.
 double ApplyModel(double value, NumericModel model);

@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "ir/transform/word_exprs.h"
+
 namespace ncport::ir::transform {
 
 namespace {
@@ -16,6 +18,27 @@ bool SameName(std::string_view a, std::string_view b, bool ignore_case) {
            return x == y || (ignore_case && std::toupper(static_cast<unsigned char>(x)) ==
                                                 std::toupper(static_cast<unsigned char>(y)));
          });
+}
+
+/// True if the expression holds a cell of the space whose number is computed.
+bool HasIndex(const Module& module, ExprId id, SpaceId space) {
+  const Expr& expr = module.exprs[id];
+  if (expr.op == ExprOp::kCellAt && expr.b == space.value) return true;
+  switch (OperandsOf(expr.op)) {
+    case Operands::kLeaf:
+      return false;
+    case Operands::kUnary:
+      return HasIndex(module, ExprId{std::size_t{expr.a}}, space);
+    case Operands::kBinary:
+      return HasIndex(module, ExprId{std::size_t{expr.a}}, space) ||
+             HasIndex(module, ExprId{std::size_t{expr.b}}, space);
+    case Operands::kList:
+      for (std::uint32_t i = 0; i < expr.count; ++i) {
+        if (HasIndex(module, module.Item(expr.b + i), space)) return true;
+      }
+      return false;
+  }
+  return false;
 }
 
 }  // namespace
@@ -177,6 +200,19 @@ void CellAllocation::KeepLocals() {
   }
 }
 
+/// Of the first word with a cell of the space whose number is computed.
+SourceRange CellAllocation::PlaceOfIndex(SpaceId space) const {
+  for (const Block& block : module_.blocks.All()) {
+    for (const WordId id : block.words) {
+      bool found = false;
+      VisitWordExprs(module_, module_.words[id],
+                     [&](ExprId root, bool) { found = found || HasIndex(module_, root, space); });
+      if (found) return module_.RangeOf(block, module_.words[id]);
+    }
+  }
+  return {};
+}
+
 void CellAllocation::PlaceIndexedSpaces() {
   for (const std::uint32_t space : uses_.indexed_spaces) {
     if (SpaceId{space} == space_ || offsets_.contains(space)) continue;
@@ -188,8 +224,8 @@ void CellAllocation::PlaceIndexedSpaces() {
             PinOf({}, fmt::format("{}{}", module_.View(source.name), source.first))) {
       first = pin->cell;
     } else if (!TakeCommon(count, first)) {
-      Refuse({}, fmt::format("{}[..] with a computed number ({} cells that move together)", module_.View(source.name),
-                             count));
+      Refuse(PlaceOfIndex(SpaceId{space}), fmt::format("{}[..] with a computed number ({} cells that move together)",
+                                                       module_.View(source.name), count));
       continue;
     }
     offsets_[space] = static_cast<std::int64_t>(first) - source.first;

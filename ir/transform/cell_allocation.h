@@ -50,6 +50,7 @@ class CellAllocation {
   void ReservePin(const NamesToNumbersConfig::Pin& pin, std::string_view name, std::uint32_t count, ProgramId owner);
   [[nodiscard]] const NamesToNumbersConfig::Pin* PinOf(ProgramId program, std::string_view name) const;
   void PlaceIndexedSpaces();
+  [[nodiscard]] SourceRange PlaceOfIndex(SpaceId space) const;
   void PlaceCells();
   void ChooseAllLetters();
   void ChooseLetters(const std::vector<ProgramId>& parts);

@@ -78,6 +78,32 @@ void ExplainFrameSign(std::string_view line, std::uint32_t word, LineError& erro
   }
 }
 
+void ExplainComment(std::string_view line, LineError& error, std::string& help) {
+  line = line.substr(0, line.find(';'));
+  std::size_t first = line.find_first_not_of(" \t");
+  if (first != std::string_view::npos && (line[first] == 'N' || line[first] == 'n') && first + 1 < line.size() &&
+      IsDigit(line[first + 1]))
+    first = line.find_first_not_of(" \t", line.find_first_not_of("0123456789", first + 1));
+  if (first == std::string_view::npos) return;
+  int words = 0, letters = 0;
+  std::size_t end = line.size();
+  for (std::size_t at = first; at < line.size(); ++at) {
+    if (IsLetter(line[at])) {
+      if (++letters == 3) ++words;
+      continue;
+    }
+    letters = 0;
+    if (std::string_view(" \t\r-.,").find(line[at]) == std::string_view::npos) return;
+    end = std::min(end, at);
+  }
+  if (words < 2) return;
+  error = {.code = Code::kUnknownWord,
+           .begin = static_cast<std::uint32_t>(first),
+           .length = static_cast<std::uint32_t>(end - first)};
+  help = "a comment begins with ;";
+  error.help = help.c_str();
+}
+
 bool GoesOn(std::string_view line) {
   int depth = 0;
   bool text = false;

@@ -141,7 +141,8 @@ bool Lowering::DoValue(const Action& action) {
           if (IsLetter(c) || (IsDigit(c) && !(axis.size() == 1 && c == '0'))) {
             axis.push_back(Upper(c));
           } else if (c == '-' || c == '+' || c == '.') {
-            return Fail(Code::kUnexpectedText, token);
+            return Fail(Code::kUnexpectedText, token,
+                        "an address holds no value to read: the programmed position of an axis is $P_EP[X]");
           }
         }
         name.sub = kNamedAxis;

@@ -90,6 +90,9 @@ Recipe BlockParser::Parse(std::span<const Token> tokens) {
       recipe.error.help = "a subprogram call has a block of its own; a variable is set with =";
     } else if (strategy.OnlyExpected() == Parser::Name && IsReserved(kind_at(at))) {
       recipe.error.code = diag::Code::kReservedName;
+      const bool second_type = kind_at(at) == TokenKind::kType && at > 0 && kind_at(at - 1) == TokenKind::kComma;
+      if (second_type && kind_at(0) == TokenKind::kDef)
+        recipe.error.help = "a DEF names one type: the next one begins a DEF of its own";
     } else if (strategy.OnlyExpected() == Parser::Equals && at > 0 && at >= tokens.size() &&
                kind_at(at - 1) == TokenKind::kAxis) {
       recipe.error.code = diag::Code::kMissingValue;

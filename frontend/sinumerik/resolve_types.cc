@@ -53,6 +53,8 @@ bool Resolver::Mismatch(ExprId id, std::string_view what, std::string_view neede
   diag::Diagnostic& finding =
       sink_.Report(Code::kTypeMismatch, module_.RangeOf(module_.blocks[block_], id), what, needed);
   finding.help = help;
+  if (help.empty() && module_.exprs[id].op == ExprOp::kAxisName)
+    finding.help = "an address holds no value to read: the programmed position of an axis is $P_EP[X]";
   TellParameter(finding);
   return false;
 }

@@ -1,13 +1,12 @@
-// Arcs in a plane whose axes the frame scales differently: what it makes of a circle is none (sinumerik-8.7,
-// fanuc-8.6).
+// Arcs in a plane whose axes the frame scales differently: what it makes of a circle is none (sinumerik-8.7).
 #include <fmt/format.h>
 
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 
 #include "check/motion_words.h"
+#include "check/plane_axes.h"
 #include "check/rules.h"
 #include "ir/transform/frame_flow.h"
 
@@ -22,19 +21,6 @@ using ir::transform::FrameMatrix;
 using ir::transform::FrameState;
 
 constexpr double kSame = 1e-9;
-
-std::optional<std::array<std::size_t, 2>> AxesOf(ir::Plane plane) {
-  switch (plane) {
-    case ir::Plane::kXY:
-      return {{0, 1}};
-    case ir::Plane::kZX:
-      return {{2, 0}};
-    case ir::Plane::kYZ:
-      return {{1, 2}};
-    default:
-      return std::nullopt;
-  }
-}
 
 /// How far the frame stretches the directions of the plane: the axes themselves where they stay at right angles, else
 /// the directions with the largest and the least factor. The plane may be tilted.

@@ -33,6 +33,7 @@ void CheckPrograms(const Subject& subject, diag::Sink& sink) {
   CheckSpindleSpeed(subject, sink);
   CheckCompensation(subject, sink);
   CheckFrameArcs(subject, sink);
+  CheckScaleArcs(subject, sink);
 }
 
 }  // namespace ncport::check

@@ -83,5 +83,7 @@ void CheckSpindleSpeed(const Subject& subject, diag::Sink& sink);
 void CheckCompensation(const Subject& subject, diag::Sink& sink);
 /// NC5012: an arc in a plane whose axes the frame scales by different factors, on every way.
 void CheckFrameArcs(const Subject& subject, diag::Sink& sink);
+/// NC5012: the same for an arc by its centre under a scale about a point.
+void CheckScaleArcs(const Subject& subject, diag::Sink& sink);
 
 }  // namespace ncport::check

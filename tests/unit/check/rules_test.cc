@@ -362,6 +362,15 @@ TEST_CASE("arcs under different scale factors") {
   CHECK(Mill(start + "ROT X30\nASCALE X2 Y2\nG2 X9 Y9 CR=9\nROT\nM30\n").empty());
   CHECK(Mill(start + "SCALE X2 Y=R2\nG2 X9 Y9 CR=9\nSCALE\nM30\n").empty());
   CHECK(Mill(start + "IF R1>0\nSCALE X2\nENDIF\nG2 X9 Y9 CR=9\nSCALE\nM30\n").empty());
+  // A scale about a point: its arcs by the radius take the larger factor.
+  const std::string scaled = "O1\nG17 G90 G21\nS900 M3\nG0 X0. Y0.\n";
+  const std::string by_centre = "G2 X9. Y9. I4.5 J4.5 F100.\n";
+  CHECK(Macro(scaled + "G51 X0 Y0 I2000 J3.\n" + by_centre + "G50\nM30\n") == "NC5012 6");
+  CHECK(Macro(scaled + "G51 X0 Y0 P2000 J3.\n" + by_centre + "G50\nM30\n") == "NC5012 6");
+  CHECK(Macro(scaled + "G51 X0 Y0 I2. J-2000\n" + by_centre + "G50\nM30\n").empty());
+  CHECK(Macro(scaled + "G51 X0 Y0 I2. J3.\nG2 X9. Y9. R9. F100.\nG50\nM30\n").empty());
+  CHECK(Macro(scaled + "G51 X0 Y0 I2. J3.\nG50\n" + by_centre + "M30\n").empty());
+  CHECK(Macro(scaled + "G51 X0 Y0 I2. J#101\n" + by_centre + "G50\nM30\n").find("NC5012") == std::string::npos);
   // What a program does that is not here.
   CHECK(Mill(start + "SCALE X2\nUPB\nG2 X9 Y9 CR=9\nSCALE\nM30\n").find("NC5012") == std::string::npos);
 }

@@ -7,6 +7,7 @@
 #include "check/comp_flow.h"
 #include "check/expressions.h"
 #include "check/motion_words.h"
+#include "dialects/radius_registers.h"
 #include "ir/analysis/forward_flow.h"
 
 namespace ncport::check {
@@ -27,9 +28,7 @@ class ToolFlow {
   using State = std::uint8_t;
 
   explicit ToolFlow(const Subject& subject)
-      : module_(subject.module),
-        registers_(subject.profile.fanuc.variant.Is(dialects::FanucSettings::Variant::kFanuc) &&
-                   !subject.profile.words.radius_offset.Or("").empty()) {}
+      : module_(subject.module), registers_(dialects::RadiusInRegister(subject.profile)) {}
 
   State Entry(ProgramId program) const {
     // What nothing here calls is called with a tool.
@@ -89,7 +88,7 @@ class ToolFlow {
   }
 
   const ir::Module& module_;
-  bool registers_;  // D names the register of the radius, whatever the tool (fanuc-8.1)
+  bool registers_;  // D names the register of the radius, whatever the tool
 };
 
 struct Wording {

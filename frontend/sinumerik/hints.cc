@@ -68,7 +68,7 @@ void ExplainSyntax(std::span<const Token> tokens, std::size_t at, std::string_vi
   help.clear();
   if (ExplainJumpWithZeros(line, error, help)) return;
   SyntaxHints(tokens, at, line, error, help).Run();
-  if (help.empty()) ExplainComment(line, error, help);
+  if (help.empty()) ExplainComment(tokens, line, error, help);
 }
 
 }  // namespace ncport::frontend::sinumerik

@@ -25,7 +25,7 @@ bool ExplainJumpWithZeros(std::string_view line, LineError& error, std::string& 
 void ExplainWord(std::string_view line, LineError& error, std::string& help);
 
 /// `FINISH CUT`: a block of words alone, at least two of three letters, is a comment whose sign is missing.
-void ExplainComment(std::string_view line, LineError& error, std::string& help);
+void ExplainComment(std::span<const Token> tokens, std::string_view line, LineError& error, std::string& help);
 
 /// Card 1.2: a word at the place of a new name, in DEF or behind a type of PROC, that cannot be a name: an address, a
 /// number, an R parameter, other signs. True if that is so; the error is then the whole word.

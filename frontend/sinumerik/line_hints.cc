@@ -7,6 +7,7 @@
 #include "dialects/sinumerik/words.h"
 #include "frontend/common/chars.h"
 #include "frontend/sinumerik/hints.h"
+#include "frontend/sinumerik/token_kind.h"
 
 namespace ncport::frontend::sinumerik {
 
@@ -78,7 +79,10 @@ void ExplainFrameSign(std::string_view line, std::uint32_t word, LineError& erro
   }
 }
 
-void ExplainComment(std::string_view line, LineError& error, std::string& help) {
+void ExplainComment(std::span<const Token> tokens, std::string_view line, LineError& error, std::string& help) {
+  // Of words that open a block of their own the rest is judged, not the whole.
+  const auto opening = tokens.empty() ? TokenKind::kNone : static_cast<TokenKind>(tokens.front().kind);
+  if (opening >= TokenKind::kDef && opening <= TokenKind::kRefused) return;
   line = line.substr(0, line.find(';'));
   std::size_t first = line.find_first_not_of(" \t");
   if (first != std::string_view::npos && (line[first] == 'N' || line[first] == 'n') && first + 1 < line.size() &&

@@ -218,7 +218,7 @@ class Reader {
           static_cast<K>(tokens.front().kind) == K::kDef)
         error_ = {.code = Code::kReservedName, .begin = error_.begin, .length = error_.length};
       ExplainWord(text, error_, help_);
-      if (help_.empty() && error_.help == nullptr) ExplainComment(text, error_, help_);
+      if (help_.empty() && error_.help == nullptr) ExplainComment(tokens, text, error_, help_);
       return &error_;
     }
     if (const Token* refused = source_.Refused()) {

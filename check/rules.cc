@@ -34,6 +34,7 @@ void CheckPrograms(const Subject& subject, diag::Sink& sink) {
   CheckCompensation(subject, sink);
   CheckFrameArcs(subject, sink);
   CheckScaleArcs(subject, sink);
+  CheckMachineWords(subject, sink);
 }
 
 }  // namespace ncport::check

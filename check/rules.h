@@ -85,5 +85,8 @@ void CheckCompensation(const Subject& subject, diag::Sink& sink);
 void CheckFrameArcs(const Subject& subject, diag::Sink& sink);
 /// NC5012: the same for an arc by its centre under a scale about a point.
 void CheckScaleArcs(const Subject& subject, diag::Sink& sink);
+/// NC5013: an axis that the profile does not name. NC5014: a diameter word or mode where no transverse axis is. NC2005:
+/// a numbered variable beyond those of the profile.
+void CheckMachineWords(const Subject& subject, diag::Sink& sink);
 
 }  // namespace ncport::check

@@ -8,15 +8,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "ir/axis_names.h"
+
 namespace ncport::app {
 namespace {
-
-constexpr char kLetters[] = "XYZABCUVW";
-
-std::string AxisName(const ir::Module& module, std::uint8_t axis) {
-  if (axis < ir::kLetterAxes) return std::string(1, kLetters[axis]);
-  return std::string(module.View(module.axis_names[static_cast<std::size_t>(axis - ir::kFirstNamedAxis)]));
-}
 
 double WithinTurn(double angle) {
   const double turn = 2 * std::numbers::pi;
@@ -121,7 +116,7 @@ std::vector<ReportEnvelope> Envelopes::Result(const SourceFiles& files, const di
   const auto point_of = [&](const Point& point) {
     ReportPoint shown;
     for (std::uint8_t axis = 0; axis < ir::kMaxAxes; ++axis) {
-      if ((point.known >> axis & 1U) != 0) shown.axes.emplace_back(AxisName(module_, axis), point.position[axis]);
+      if ((point.known >> axis & 1U) != 0) shown.axes.emplace_back(ir::AxisName(module_, axis), point.position[axis]);
     }
     if (point.block.Valid()) shown.source = PlaceForReport(module_.RangeOf(module_.blocks[point.block]), files);
     return shown;
@@ -143,7 +138,7 @@ std::vector<ReportEnvelope> Envelopes::Result(const SourceFiles& files, const di
     for (std::uint8_t axis = 0; axis < ir::kMaxAxes; ++axis) {
       if ((tool.known >> axis & 1U) == 0) continue;
       ReportAxis& shown = envelope.axes.emplace_back();
-      shown.name = AxisName(module_, axis);
+      shown.name = ir::AxisName(module_, axis);
       shown.low = tool.low[axis];
       shown.high = tool.high[axis];
       // Whether a limit of the transverse axis is a radius or a diameter is not said anywhere: it is not compared.

@@ -7,11 +7,10 @@
 #include "app/source_hash.h"
 #include "dialects/machine.h"
 #include "ir/analysis/tool_change.h"
+#include "ir/axis_names.h"
 
 namespace ncport::app {
 namespace {
-
-constexpr std::string_view kAxes = "XYZABCUVW";
 
 std::vector<std::string> Required(const dialects::Profile& target) {
   std::vector<std::string> lines;
@@ -35,8 +34,8 @@ std::vector<ReportPair> PairsOf(const std::vector<backends::iso::FlatUse>& uses)
 
 std::string AxesText(std::uint16_t axes) {
   std::string text;
-  for (std::size_t axis = 0; axis < kAxes.size(); ++axis) {
-    if ((axes >> axis & 1U) != 0) text += kAxes[axis];
+  for (std::size_t axis = 0; axis < ir::kAxisLetters.size(); ++axis) {
+    if ((axes >> axis & 1U) != 0) text += ir::kAxisLetters[axis];
   }
   return text;
 }

@@ -7,6 +7,8 @@
 
 #include "base/number_text.h"
 #include "dialects/argument_letters.h"
+#include "ir/axis_names.h"
+#include "ir/length_units.h"
 
 namespace ncport::app {
 namespace {
@@ -49,9 +51,8 @@ std::optional<Constant> ParseConstant(std::string_view text) {
     constant.value = exec::Value::Bool(text.size() == 4);
     return constant;
   }
-  constexpr std::string_view kAxes = "XYZABCUVW";
-  if (text.size() == 1 && kAxes.find(Upper(text[0])) != std::string_view::npos) {
-    constant.value = exec::Value::Axis(static_cast<std::uint8_t>(kAxes.find(Upper(text[0]))));
+  if (const auto axis = text.size() == 1 ? ir::AxisOf(Upper(text[0])) : std::nullopt) {
+    constant.value = exec::Value::Axis(*axis);
     return constant;
   }
   const char* p = text.data();
@@ -218,24 +219,24 @@ Status ApplySet(std::string_view set, const ir::Module& module, bool ignore_case
 
 Status ApplyStart(std::string_view start, const dialects::Profile& profile, exec::RunOptions& options,
                   diag::Sink& sink) {
-  constexpr std::string_view kAxes = "XYZABCUVW";
   const bool inch = profile.units.Is(dialects::LengthUnit::kInch);
   const char* p = start.data();
   const char* end = p + start.size();
   while (true) {
     while (p != end && *p == ' ') ++p;
     if (p == end) break;
-    const std::size_t axis = kAxes.find(Upper(*p));
+    const std::optional<std::uint8_t> axis = ir::AxisOf(Upper(*p));
     const char* number_begin = p + 1;
     DecimalText number;
-    if (axis == std::string_view::npos || !ParseDecimal(number_begin, end, number) || !std::isfinite(number.value)) {
+    if (!axis || !ParseDecimal(number_begin, end, number) || !std::isfinite(number.value)) {
       return Fail(sink, "--start", fmt::format("{} is not a position such as X0Y0Z100", start));
     }
     p = number_begin;
-    const auto bit = static_cast<std::uint16_t>(1U << axis);
-    if ((options.start_axes & bit) != 0) return Fail(sink, "--start", fmt::format("{} stands twice", kAxes[axis]));
+    const auto bit = static_cast<std::uint16_t>(1U << *axis);
+    if ((options.start_axes & bit) != 0)
+      return Fail(sink, "--start", fmt::format("{} stands twice", ir::kAxisLetters[*axis]));
     options.start_axes = static_cast<std::uint16_t>(options.start_axes | bit);
-    options.start_position[axis] = number.value * (inch && !ir::IsRotary(static_cast<std::uint8_t>(axis)) ? 25.4 : 1);
+    options.start_position[*axis] = number.value * (inch && !ir::IsRotary(*axis) ? ir::kMmPerInch : 1);
   }
   if (options.start_axes == 0) return Fail(sink, "--start", "no axis is named");
   options.start_position_known = true;

@@ -5,21 +5,18 @@
 #include "dialects/fanuc/machine.h"
 #include "dialects/num/machine.h"
 #include "dialects/sinumerik/machine.h"
+#include "ir/axis_names.h"
 
 namespace ncport::dialects {
 namespace {
-
-constexpr std::string_view kAxisLetters = "XYZABCUVW";  // order of ir::Axis
-static_assert(kAxisLetters.size() == ir::kLetterAxes);
 
 /// Bit per axis of the profile. Axes with other names (X1, E) take the bits from kFirstNamedAxis on, in their order.
 std::uint16_t AxisBits(const Profile& profile) {
   unsigned bits = 0;
   unsigned named = ir::kFirstNamedAxis;
   for (const std::string& axis : profile.axes) {
-    const std::size_t letter = axis.size() == 1 ? kAxisLetters.find(axis[0]) : std::string_view::npos;
-    if (letter != std::string_view::npos) {
-      bits |= 1U << letter;
+    if (const auto letter = ir::AxisOf(axis)) {
+      bits |= 1U << *letter;
     } else if (named < ir::kMaxAxes) {
       bits |= 1U << named++;
     }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "ir/length_units.h"
 #include "ir/ops/arithmetic.h"
 
 namespace ncport::exec {
@@ -10,8 +11,6 @@ namespace ncport::exec {
 using ir::WordOp;
 
 namespace {
-
-constexpr double kFoot = 0.3048;
 
 /// Decimals of a tool number as hundredths: which of the tools with this number (mazak-lathe-4.1).
 std::uint32_t SuffixOf(double number) {
@@ -121,7 +120,7 @@ void Auxiliary::Speed(const ir::Word& word, double value) {
   }
   // The surface speed belongs to the master spindle.
   const bool surface = channel_.modal.speed_mode == ir::SpeedMode::kConstantSurface && number == 0;
-  if (surface && channel_.modal.units == ir::Units::kInch) value *= kFoot;
+  if (surface && channel_.modal.units == ir::Units::kInch) value *= ir::kMetersPerFoot;
   spindle->speed_known = true;
   spindle->speed = value;
   Event& event = emitter_.Begin(surface ? EventKind::kSpindleSurface : EventKind::kSpindleSpeed);

@@ -3,6 +3,8 @@
 #include <cstring>
 #include <utility>
 
+#include "ir/length_units.h"
+
 namespace ncport::exec {
 
 Event& Emitter::Begin(EventKind kind) {
@@ -34,7 +36,7 @@ Event& Emitter::BeginMotion(EventKind kind, const double* from) {
   event_.change = 0;
   event_.diameter_active =
       channel_.modal.diameter == ir::Diameter::kDiameter || channel_.modal.diameter == ir::Diameter::kDiameterAbsolute;
-  event_.inch = channel_.modal.units == ir::Units::kInch || channel_.modal.units == ir::Units::kInchGeometry;
+  event_.inch = ir::LengthsAreInches(channel_.modal.units);
   event_.known_axes = channel_.programmed & channel_.base_known;
   std::memcpy(event_.position, channel_.base, sizeof event_.position);
   std::memcpy(event_.from, from, sizeof event_.from);

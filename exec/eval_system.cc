@@ -3,6 +3,7 @@
 #include <string>
 
 #include "exec/evaluator.h"
+#include "ir/length_units.h"
 #include "ir/ops/arithmetic.h"
 
 namespace ncport::exec {
@@ -78,8 +79,7 @@ Value Evaluator::EvalSystem(const Expr& expr) {
 Value Evaluator::ReadSystem(const ir::System& system, std::uint32_t key, std::string_view name, const Value* indices,
                             std::size_t count) {
   const double first = count > 0 ? ir::ops::Round(indices[0].number) : 0;
-  const bool inch_lengths =
-      channel_.modal.units == ir::Units::kInch || channel_.modal.units == ir::Units::kInchGeometry;
+  const bool inch_lengths = ir::LengthsAreInches(channel_.modal.units);
   const auto unknown = [&] {
     session_.Refuse(diag::Code::kMachineValue, name);
     return ZeroOf(system.type);
@@ -96,14 +96,14 @@ Value Evaluator::ReadSystem(const ir::System& system, std::uint32_t key, std::st
       const bool diameter = channel_.modal.diameter == ir::Diameter::kDiameter ||
                             channel_.modal.diameter == ir::Diameter::kDiameterAbsolute;
       if (axis == machine_.transverse_axis && diameter && machine_.position_reads_diameter) position *= 2;
-      if (inch_lengths && !ir::IsRotary(axis)) position /= 25.4;
+      if (inch_lengths && !ir::IsRotary(axis)) position /= ir::kMmPerInch;
       return Value::Real(position);
     }
     case SystemKind::kActiveFeed: {
       if (!channel_.feed_known) return Value::Real(0);
       const bool inch_feed =
           channel_.modal.units == ir::Units::kInch && channel_.feed_mode != ir::FeedMode::kInverseTime;
-      return Value::Real(inch_feed ? channel_.feed / 25.4 : channel_.feed);
+      return Value::Real(inch_feed ? channel_.feed / ir::kMmPerInch : channel_.feed);
     }
     case SystemKind::kActiveSpeed: {
       const bool valid = first >= 0 && first < kSpindles;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "exec/evaluator.h"
+#include "ir/axis_names.h"
 #include "ir/ops/text.h"
 
 namespace ncport::exec {
@@ -21,12 +22,7 @@ Value Evaluator::NewText(std::string_view text) {
   return value;
 }
 
-std::string_view Evaluator::AxisName(std::uint8_t axis) const {
-  static constexpr std::string_view kLetters = "XYZABCUVW";
-  if (axis < ir::kLetterAxes) return kLetters.substr(axis, 1);
-  const std::size_t named = axis - ir::kFirstNamedAxis;
-  return named < module_.axis_names.size() ? module_.View(module_.axis_names[named]) : std::string_view{};
-}
+std::string_view Evaluator::AxisName(std::uint8_t axis) const { return ir::AxisName(module_, axis); }
 
 void Evaluator::AppendText(TextBuffer& buffer, const Value& value) {
   switch (value.type) {

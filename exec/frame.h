@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "ir/modes.h"
+#include "ir/plane_axes.h"
 
 namespace ncport::exec {
 
@@ -52,25 +53,9 @@ class Frame {
   bool invertible_ = true;
 };
 
-/// The two axes of a plane in its order, and its normal: XY -> 0 1 2, ZX -> 2 0 1, YZ -> 1 2 0.
-struct PlaneAxes {
-  std::uint8_t first = 0;
-  std::uint8_t second = 1;
-  std::uint8_t normal = 2;
-};
-constexpr PlaneAxes AxesOf(ir::Plane plane) {
-  switch (plane) {
-    case ir::Plane::kZX:
-      return {2, 0, 1};
-    case ir::Plane::kYZ:
-      return {1, 2, 0};
-    default:
-      return {0, 1, 2};
-  }
-}
-constexpr ir::Plane PlaneWithNormal(std::uint8_t normal) {
-  return normal == 1 ? ir::Plane::kZX : normal == 0 ? ir::Plane::kYZ : ir::Plane::kXY;
-}
+using ir::AxesOf;
+using ir::PlaneAxes;
+using ir::PlaneWithNormal;
 
 /// Where a plane of the workpiece system comes to lie.
 struct PlaneMap {

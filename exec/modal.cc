@@ -3,17 +3,12 @@
 
 #include "exec/evaluator.h"
 #include "exec/kinematics.h"
+#include "ir/length_units.h"
 #include "ir/ops/arithmetic.h"
 
 namespace ncport::exec {
 
 using ir::WordOp;
-
-namespace {
-
-constexpr double kInch = 25.4;
-
-}  // namespace
 
 Kinematics::Kinematics(Session& session, Channel& channel, Emitter& emitter, const Evaluator& names)
     : session_(session), channel_(channel), emitter_(emitter), names_(names), contour_(session, emitter) {}
@@ -26,10 +21,10 @@ void Kinematics::RefuseUnknown(std::string_view what) {
 
 double Kinematics::LengthFactor() const {
   const ir::Units units = channel_.modal.units;
-  return units == ir::Units::kInch || units == ir::Units::kInchGeometry ? kInch : 1;
+  return ir::MmPerLengthUnit(units);
 }
 
-double Kinematics::FeedFactor() const { return channel_.modal.units == ir::Units::kInch ? kInch : 1; }
+double Kinematics::FeedFactor() const { return channel_.modal.units == ir::Units::kInch ? ir::kMmPerInch : 1; }
 
 void Kinematics::Set(const ir::Word& word, double extension, BlockWork& work) {
   ir::ModalState& modal = channel_.modal;

@@ -4,6 +4,7 @@
 
 #include "base/number_text.h"
 #include "exec/trace_text.h"
+#include "ir/axis_names.h"
 
 namespace ncport::exec {
 namespace {
@@ -67,16 +68,12 @@ class Object {
 };
 
 void Motion(Object& object, const Event& event, const ir::Module& module) {
-  static constexpr std::string_view kLetters = "XYZABCUVW";
   object.Key("to");
   Object to(object.Buffer());
   for (std::uint8_t axis = 0; axis < ir::kMaxAxes; ++axis) {
     if ((event.known_axes >> axis & 1U) == 0) continue;
-    const std::size_t named = axis < ir::kFirstNamedAxis ? 0U : static_cast<std::size_t>(axis - ir::kFirstNamedAxis);
-    const std::string_view name = axis < ir::kLetterAxes             ? kLetters.substr(axis, 1)
-                                  : named < module.axis_names.size() ? module.View(module.axis_names[named])
-                                                                     : "?";
-    to.Number(name, event.position[axis]);
+    const std::string_view name = ir::AxisName(module, axis);
+    to.Number(name.empty() ? "?" : name, event.position[axis]);
   }
   to.Close();
   if (event.diameter_active) object.Flag("diameter");

@@ -1,6 +1,7 @@
 #include "exec/trace_text.h"
 
 #include "base/number_text.h"
+#include "ir/axis_names.h"
 
 namespace ncport::exec {
 namespace {
@@ -16,10 +17,8 @@ void Word(TextBuffer& buffer, std::string_view name, double value) {
 }
 
 std::string_view AxisName(std::uint8_t axis, const ir::Module& module) {
-  static constexpr std::string_view kLetters = "XYZABCUVW";
-  if (axis < ir::kLetterAxes) return kLetters.substr(axis, 1);
-  const std::size_t named = axis - ir::kFirstNamedAxis;
-  return named < module.axis_names.size() ? module.View(module.axis_names[named]) : std::string_view{"?"};
+  const std::string_view name = ir::AxisName(module, axis);
+  return name.empty() ? "?" : name;
 }
 
 void Axes(TextBuffer& buffer, const Event& event, const ir::Module& module) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/number_text.h"
+#include "ir/axis_names.h"
 #include "ir/dump_syntax.h"
 #include "ir/dump_writer.h"
 
@@ -56,14 +57,13 @@ void DumpWriter::Name(StringId id) {
 void DumpWriter::ProgramRef(ProgramId id) { Ref(module_.programs, programs_, id); }
 
 void DumpWriter::AxisRef(std::uint32_t axis) {
-  if (axis < kLetterAxes) return Put("XYZABCUVW"[axis]);
+  if (axis < kLetterAxes) return Put(kAxisLetters[axis]);
   const std::uint32_t named = axis - kFirstNamedAxis;
   if (named >= module_.axis_names.size() || axis >= kMaxAxes) return Unknown(axis);
   // Axes are few: those of the same name before this one are counted.
   const StringId name = module_.axis_names[named];
   const std::string_view text = name.value < module_.strings.Size() ? module_.strings.View(name) : std::string_view{};
-  std::uint32_t ordinal =
-      text.size() == 1 && std::string_view("XYZABCUVW").find(text) != std::string_view::npos ? 2 : 1;
+  std::uint32_t ordinal = AxisOf(text) ? 2 : 1;
   for (std::uint32_t before = 0; before < named; ++before) ordinal += module_.axis_names[before] == name ? 1U : 0U;
   Name(name);
   Ordinal(ordinal);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/number_text.h"
+#include "ir/axis_names.h"
 #include "ir/dump.h"
 #include "ir/dump_parser.h"
 #include "ir/dump_syntax.h"
@@ -87,9 +88,8 @@ std::uint8_t DumpParser::AxisRef() {
   const std::string name(scan_.Name());
   std::uint32_t ordinal = scan_.Ordinal();
   if (scan_.Failed()) return 0;
-  const std::size_t letter = name.size() == 1 ? std::string_view("XYZABCUVW").find(name) : std::string_view::npos;
-  if (letter != std::string_view::npos) {
-    if (ordinal == 1) return static_cast<std::uint8_t>(letter);
+  if (const auto letter = AxisOf(name)) {
+    if (ordinal == 1) return *letter;
     --ordinal;
   }
   const StringId id = module_.strings.Find(name);

@@ -6,6 +6,7 @@
 
 #include "exec/arc_geometry.h"
 #include "exec/frame.h"
+#include "ir/axis_names.h"
 #include "prove/comparer.h"
 
 namespace ncport::prove {
@@ -67,8 +68,7 @@ bool Comparer::SamePoint(const Event& a, const Event& b) const {
 }
 
 std::string AxisName(std::uint8_t axis) {
-  constexpr std::string_view kNames = "XYZABCUVW";
-  return axis < kNames.size() ? std::string(1, kNames[axis]) : fmt::format("axis {}", axis);
+  return axis < ir::kLetterAxes ? std::string(1, ir::kAxisLetters[axis]) : fmt::format("axis {}", axis);
 }
 
 double Comparer::Allowed(const Event& a, const Event& b, std::uint8_t axis) const {

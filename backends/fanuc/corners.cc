@@ -6,6 +6,7 @@
 
 #include "ir/analysis/flow_analyses.h"
 #include "ir/builder.h"
+#include "ir/length_units.h"
 
 namespace ncport::backends::fanuc {
 
@@ -87,7 +88,7 @@ class Mapper {
     if (kind == ChamferKind::kRoundModal)
       return Refuse(block, word, "a rounding of all corners (RNDM)", "write RND at each corner");
     const ir::Units units = flow_.At(program, blocks[index]).units;
-    if (units == ir::Units::kInch || units == ir::Units::kInchGeometry || units == ir::Units::kUnknown)
+    if (ir::LengthsAreInches(units) || units == ir::Units::kUnknown)
       return Refuse(block, word, "a chamfer or rounding in inches", "write it in mm");
     const std::optional<Side> first = SideOf(program, blocks[index]);
     std::optional<Side> second;

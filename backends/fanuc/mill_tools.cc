@@ -14,6 +14,7 @@
 #include "backends/fanuc/text_word.h"
 #include "ir/analysis/forward_flow.h"
 #include "ir/builder.h"
+#include "ir/literal_value.h"
 #include "ir/make_word.h"
 #include "ir/transform/program_editor.h"
 
@@ -33,6 +34,7 @@ using ir::WordOp;
 using ir::transform::ProgramEditor;
 
 constexpr std::uint8_t kZ = 2;
+constexpr std::uint32_t kMostTool = 1'000'000;
 
 /// What is selected on arrival at a block. Each part is one value on every way, or kMixed.
 struct Selection {
@@ -93,15 +95,6 @@ std::optional<TargetWords> Parse(std::string_view words) {
 /// The words of a tool call bring the tool in.
 bool HasChange(std::string_view call) {
   return call.find(" M6") != std::string_view::npos || call.find(" M06") != std::string_view::npos;
-}
-
-std::optional<std::uint32_t> WholeNumber(const Module& module, ExprId id) {
-  if (!id.Valid()) return std::nullopt;
-  const ir::Expr& expr = module.exprs[id];
-  if (expr.op == ExprOp::kGroup || expr.op == ExprOp::kConvert) return WholeNumber(module, ExprId{expr.a});
-  if (expr.op != ExprOp::kLiteral || expr.number < 0 || expr.number != std::floor(expr.number) || expr.number > 1e6)
-    return std::nullopt;
-  return static_cast<std::uint32_t>(expr.number);
 }
 
 class Mapper {
@@ -228,7 +221,7 @@ int Mapper::ToolOf(const Word* word) const {
   std::string name;
   if (value.op == ExprOp::kText) {
     name = fmt::format("T=\"{}\"", module_.View(StringId{value.a}));
-  } else if (const auto number = WholeNumber(module_, word->value)) {
+  } else if (const auto number = ir::WholeNumber(module_, word->value, kMostTool)) {
     name = fmt::format("T{}", *number);
   }
   const auto known = std::find(names_.begin(), names_.end(), name);
@@ -236,7 +229,7 @@ int Mapper::ToolOf(const Word* word) const {
 }
 
 int Mapper::EdgeOf(const Word* word) const {
-  const auto number = WholeNumber(module_, word->value);
+  const auto number = ir::WholeNumber(module_, word->value, kMostTool);
   return number ? static_cast<int>(*number) + 1 : Selection::kMixed;
 }
 
@@ -248,7 +241,7 @@ void Mapper::NameTools() {
       const Words words = Look(block);
       changes = changes || words.change;
       tools = tools || words.tool != nullptr;
-      if (words.edge != nullptr && !WholeNumber(module_, words.edge->value))
+      if (words.edge != nullptr && !ir::WholeNumber(module_, words.edge->value, kMostTool))
         Refuse(module_.RangeOf(block, *words.edge), "a computed edge", "");
       if (words.tool == nullptr || ToolOf(words.tool) != Selection::kMixed) continue;
       const ir::Expr& value = module_.exprs[words.tool->value];
@@ -256,7 +249,7 @@ void Mapper::NameTools() {
         const std::string text(module_.View(StringId{value.a}));
         names_.push_back(fmt::format("T=\"{}\"", text));
         source_tools_.emplace_back(text, 0);
-      } else if (const auto number = WholeNumber(module_, words.tool->value)) {
+      } else if (const auto number = ir::WholeNumber(module_, words.tool->value, kMostTool)) {
         names_.push_back(fmt::format("T{}", *number));
         source_tools_.emplace_back(std::string(), *number);
       } else {

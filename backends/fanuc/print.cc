@@ -10,6 +10,7 @@
 #include "base/result.h"
 #include "dialects/fanuc/words.h"
 #include "dialects/word_template.h"
+#include "ir/axis_names.h"
 
 namespace ncport::backends::fanuc {
 
@@ -106,7 +107,6 @@ void Printer::Template(std::string_view form, ir::ExprId number, ir::ExprId offs
 }
 
 void Printer::PrintAddress(const Word& word) {
-  static constexpr std::string_view kAxes = "XYZABCUVW";
   static constexpr std::string_view kCenters = "IJK";
   NumberPlace place = NumberPlace::kWord;
   char letter = 0;
@@ -116,11 +116,11 @@ void Printer::PrintAddress(const Word& word) {
         const auto& letters = *profile_.words.incremental_axes;
         // The letters stand for the increments of X, Y, Z, C.
         const std::string_view axes = "XYZC";
-        const std::size_t at = axes.find(kAxes[word.index]);
-        NCPORT_CHECK(at < letters.size(), "no letter for an increment of {}", kAxes[word.index]);
+        const std::size_t at = axes.find(ir::kAxisLetters[word.index]);
+        NCPORT_CHECK(at < letters.size(), "no letter for an increment of {}", ir::kAxisLetters[word.index]);
         letter = letters[at];
       } else {
-        letter = kAxes[word.index];
+        letter = ir::kAxisLetters[word.index];
       }
       break;
     case WordOp::kCenter:

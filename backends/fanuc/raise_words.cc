@@ -15,6 +15,7 @@
 #include "ir/analysis/flow_analyses.h"
 #include "ir/block_words.h"
 #include "ir/builder.h"
+#include "ir/literal_value.h"
 #include "ir/make_word.h"
 #include "ir/transform/linear_form.h"
 #include "ir/transform/program_editor.h"
@@ -61,16 +62,6 @@ class CommentMaker {
   Module& module_;
   ProgramEditor editor_;
 };
-
-/// A literal whole number, or none.
-std::optional<std::uint32_t> WholeNumber(const Module& module, ExprId id) {
-  if (!id.Valid()) return std::nullopt;
-  const ir::Expr& expr = module.exprs[id];
-  if (expr.op == ExprOp::kGroup || expr.op == ExprOp::kConvert) return WholeNumber(module, ExprId{expr.a});
-  if (expr.op != ExprOp::kLiteral || expr.number < 0 || expr.number != std::floor(expr.number) || expr.number > 4e9)
-    return std::nullopt;
-  return static_cast<std::uint32_t>(expr.number);
-}
 
 /// "0101" behind the T of `words`; digits only.
 std::uint32_t NumberBehind(std::string_view words, char letter, std::size_t* digits = nullptr) {
@@ -251,7 +242,7 @@ bool MapTools(const RaiseInput& input, Translation& out, diag::Sink& sink) {
         if (value.op == ExprOp::kText) {
           use.source_name = module.View(StringId{value.a});
           last_tool = fmt::format("T=\"{}\"", use.source_name);
-        } else if (const auto number = WholeNumber(module, tool->value)) {
+        } else if (const auto number = ir::WholeNumber(module, tool->value)) {
           use.source_tool = *number;
           last_tool = fmt::format("T{}", *number);
         } else {
@@ -269,7 +260,7 @@ bool MapTools(const RaiseInput& input, Translation& out, diag::Sink& sink) {
       if (tool == nullptr) TakeTool(last_tool, use);
       use.source_words = last_tool;
       if (edge != nullptr) {
-        const auto number = WholeNumber(module, edge->value);
+        const auto number = ir::WholeNumber(module, edge->value);
         if (!number) {
           sink.Report(diag::Code::kNotExpressible, range, "a computed edge", input.profile->name);
           ok = false;
@@ -423,7 +414,7 @@ bool MapAuxiliaries(const RaiseInput& input, Translation& out, diag::Sink& sink)
           kept.push_back(word);
           continue;
         }
-        const auto number = WholeNumber(module, word.value);
+        const auto number = ir::WholeNumber(module, word.value);
         const bool common = number && (*number == 7 || *number == 8 || *number == 9);
         const std::string name = number ? fmt::format("M{}", *number) : std::string("a computed M function");
         const dialects::MCodeRule* rule = number ? rule_for(name) : nullptr;

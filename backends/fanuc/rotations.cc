@@ -10,6 +10,7 @@
 #include "dialects/fanuc/words.h"
 #include "ir/block_words.h"
 #include "ir/builder.h"
+#include "ir/length_units.h"
 #include "ir/make_word.h"
 #include "ir/transform/frame_flow.h"
 #include "ir/transform/linear_form.h"
@@ -33,7 +34,6 @@ using ir::WordOp;
 using ir::transform::FrameState;
 using ir::transform::ProgramEditor;
 
-constexpr double kInch = 25.4;
 constexpr double kDegrees = 180 / 3.14159265358979323846;
 constexpr std::uint8_t kZ = 2;
 
@@ -248,11 +248,11 @@ void RotationsToNative(const RaiseInput& input, Translation& out) {
     const FrameState after = flows.frames.After(holder, id);
     Values values = *ValuesOf(module, block, op);
     const ir::ModalState state = flows.modes.At(holder, id);
-    const bool inch = state.units == ir::Units::kInch || state.units == ir::Units::kInchGeometry;
+    const bool inch = ir::LengthsAreInches(state.units);
     for (ExprId& value : values.shift) {
       if (value.Valid() && inch)
-        value =
-            ir::transform::ExprOf(module, ir::transform::Sum(module, {}, ir::transform::FormOf(module, value), kInch));
+        value = ir::transform::ExprOf(
+            module, ir::transform::Sum(module, {}, ir::transform::FormOf(module, value), ir::kMmPerInch));
     }
     const auto group = [&](ExprId value) { return make.Unary(ExprOp::kGroup, value); };
     const bool was_turned = MayTurn(before), is_turned = MayTurn(after);

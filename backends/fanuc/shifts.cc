@@ -12,7 +12,9 @@
 #include "backends/fanuc/message_text.h"
 #include "ir/analysis/flow_analyses.h"
 #include "ir/analysis/unwritten_cells.h"
+#include "ir/axis_names.h"
 #include "ir/builder.h"
+#include "ir/length_units.h"
 #include "ir/make_word.h"
 #include "ir/transform/linear_form.h"
 #include "ir/transform/new_local.h"
@@ -33,7 +35,6 @@ using ir::WordId;
 using ir::WordOp;
 using ir::transform::ProgramEditor;
 
-constexpr double kInch = 25.4;
 constexpr std::uint8_t kLinearAxes = 3;
 
 const Word* FrameWord(const Module& module, BlockId id) {
@@ -57,7 +58,7 @@ std::string Spelled(const Module& module, const Block& block) {
   for (const WordId id : block.words) {
     const Word& word = module.words[id];
     const std::string_view name = word.op == WordOp::kAxis && word.index < ir::kLetterAxes
-                                      ? std::string_view("XYZABCUVW").substr(word.index, 1)
+                                      ? ir::kAxisLetters.substr(word.index, 1)
                                       : module.View(module.spellings[word.spelling].text);
     text += fmt::format("{}{}", text.empty() ? "" : " ", name);
     const ir::transform::LinearForm value =
@@ -193,7 +194,7 @@ bool ShiftsToLocal(const RaiseInput& input, Translation& out, diag::Sink& sink) 
       Word frame = *found;
       const bool add = Adds(frame);
       const ir::ModalState state = flow.At(program, id);
-      const double factor = state.units == ir::Units::kInch || state.units == ir::Units::kInchGeometry ? kInch : 1;
+      const double factor = ir::MmPerLengthUnit(state.units);
       std::array<ExprId, kLinearAxes> values{};
       std::vector<Word> others;
       for (const WordId word_id : block.words) {

@@ -7,30 +7,14 @@
 
 #include "backends/iso/flat_numbers.h"
 #include "backends/iso/flat_writer.h"
+#include "ir/axis_names.h"
+#include "ir/plane_axes.h"
 
 namespace ncport::backends::iso {
 namespace {
 
-constexpr char kLetters[] = "XYZABCUVW";
 constexpr int kRevolutionDecimals = 4;    // of a feed per revolution
 constexpr double kFeedTolerance = 0.001;  // error of a rounded feed, of its value
-
-/// The two axes of a plane in its order, and the axis across it.
-struct PlaneAxes {
-  std::uint8_t first, second, third;
-};
-PlaneAxes AxesOf(ir::Plane plane) {
-  switch (plane) {
-    case ir::Plane::kZX:
-      return {2, 0, 1};
-    case ir::Plane::kYZ:
-      return {1, 2, 0};
-    case ir::Plane::kXY:
-    case ir::Plane::kUnknown:
-      break;
-  }
-  return {0, 1, 2};
-}
 
 }  // namespace
 
@@ -38,7 +22,7 @@ PlaneAxes AxesOf(ir::Plane plane) {
 std::int64_t FlatWriter::Grid(std::uint8_t axis, double value) {
   const double shown = ir::IsRotary(axis) ? value : Length(value);
   if (!(std::fabs(shown * scale_[axis]) < kMaxIncrements)) {
-    Refuse(diag::Code::kOutOfRange, fmt::format("{} {}", kLetters[axis], shown), "what a word can hold");
+    Refuse(diag::Code::kOutOfRange, fmt::format("{} {}", ir::kAxisLetters[axis], shown), "what a word can hold");
     return 0;
   }
   return RoundToIncrements(shown, scale_[axis]);
@@ -47,18 +31,14 @@ std::int64_t FlatWriter::Grid(std::uint8_t axis, double value) {
 bool FlatWriter::AxesExist(std::uint16_t axes) {
   const auto missing = static_cast<std::uint16_t>(axes & ~axes_);
   if (missing == 0) return true;
-  const int axis = std::countr_zero(missing);
-  const std::string name =
-      axis < ir::kLetterAxes
-          ? std::string(1, kLetters[axis])
-          : std::string(module_.View(module_.axis_names[static_cast<std::size_t>(axis - ir::kFirstNamedAxis)]));
-  Refuse(diag::Code::kNotExpressible, "axis " + name);
+  const auto axis = static_cast<std::uint8_t>(std::countr_zero(missing));
+  Refuse(diag::Code::kNotExpressible, fmt::format("axis {}", ir::AxisName(module_, axis)));
   return false;
 }
 
 void FlatWriter::AppendAxis(std::uint8_t axis, std::int64_t value) {
   at_[axis] = value;
-  AppendNumber(kLetters[axis], value);
+  AppendNumber(ir::kAxisLetters[axis], value);
 }
 
 void FlatWriter::AppendNumber(char letter, std::int64_t increments) {
@@ -162,7 +142,7 @@ void FlatWriter::Straight(const exec::Event& event, ir::Motion motion) {
 }
 
 void FlatWriter::Arc(const exec::Event& event) {
-  const PlaneAxes axes = AxesOf(event.plane);
+  const ir::PlaneAxes axes = ir::AxesOf(event.plane);
   const std::uint8_t pair[2] = {axes.first, axes.second};
   const auto plane_bits = static_cast<std::uint16_t>(1U << axes.first | 1U << axes.second);
   if (!AxesExist(event.known_axes | plane_bits)) return;
@@ -204,7 +184,7 @@ void FlatWriter::Arc(const exec::Event& event) {
 
 /// One flat block. `end`: all axes at its end, mm and degrees.
 void FlatWriter::ArcPiece(const exec::Event& event, const ExactArc& arc, const double* end) {
-  const PlaneAxes axes = AxesOf(event.plane);
+  const ir::PlaneAxes axes = ir::AxesOf(event.plane);
   const std::uint8_t pair[2] = {axes.first, axes.second};
   ArcGrid grid;
   grid.increment = 1 / ScaleOf(decimals_);

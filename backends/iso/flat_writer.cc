@@ -8,6 +8,7 @@
 #include "backends/iso/comment_text.h"
 #include "backends/iso/flat_numbers.h"
 #include "base/number_text.h"
+#include "ir/axis_names.h"
 
 namespace ncport::backends::iso {
 namespace {
@@ -25,9 +26,6 @@ constexpr std::uint8_t kRapid = 32;   // is in the list of rapids
 constexpr std::uint32_t kNotesWalk = 4096;
 
 constexpr std::size_t kFlushAt = std::size_t{1} << 16U;
-
-/// Axis letters of a flat program, in the order of exec's axis numbers.
-constexpr std::string_view kAxisLetters = "XYZABCUVW";
 
 bool Moves(exec::EventKind kind) { return kind <= exec::EventKind::kProbe; }
 
@@ -66,8 +64,7 @@ FlatWriter::FlatWriter(const ir::Module& module, const SourceFiles& files, const
     scale_[axis] = ScaleOf(decimals_) * (diameter && axis == 0 ? 2 : 1);
   }
   for (const std::string& name : target.axes) {
-    const std::size_t axis = name.size() == 1 ? kAxisLetters.find(name[0]) : std::string_view::npos;
-    if (axis != std::string_view::npos) axes_ = static_cast<std::uint16_t>(axes_ | (1U << axis));
+    if (const auto axis = ir::AxisOf(name)) axes_ = static_cast<std::uint16_t>(axes_ | (1U << *axis));
   }
 }
 

@@ -20,6 +20,7 @@
 #include "dialects/word_template.h"
 #include "exec/event.h"
 #include "exec/run.h"
+#include "ir/length_units.h"
 #include "ir/module.h"
 
 namespace ncport::backends::iso {
@@ -103,7 +104,7 @@ class FlatWriter final : public exec::EventSink {
   void AppendNumber(char letter, std::int64_t increments);
   bool AxesExist(std::uint16_t axes);
   std::int64_t Grid(std::uint8_t axis, double value);
-  double Length(double mm) const { return inch_ ? mm / 25.4 : mm; }
+  double Length(double mm) const { return inch_ ? mm / ir::kMmPerInch : mm; }
 
   // flat_functions.cc: spindle, tool, offsets, M functions, stops
   void Spindle(const exec::Event& event);

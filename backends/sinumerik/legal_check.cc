@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "dialects/sinumerik/words.h"
+#include "ir/axis_names.h"
 
 namespace ncport::backends::sinumerik {
 
@@ -111,9 +112,8 @@ class LegalCheck {
   }
 
   [[nodiscard]] bool HasAxis(std::uint8_t axis) const {
-    constexpr std::string_view kLetters = "XYZABCUVW";
     return std::any_of(input_.profile->axes.begin(), input_.profile->axes.end(),
-                       [&](const std::string& name) { return name.size() == 1 && name[0] == kLetters[axis]; });
+                       [&](const std::string& name) { return ir::AxisOf(name) == axis; });
   }
 
   void CheckExpr(const Word& word, ExprId id) {

@@ -15,6 +15,7 @@
 
 #include "ir/analysis/forward_flow.h"
 #include "ir/builder.h"
+#include "ir/literal_value.h"
 #include "ir/make_word.h"
 #include "ir/transform/program_editor.h"
 
@@ -33,6 +34,7 @@ using ir::WordOp;
 using ir::transform::ProgramEditor;
 
 constexpr std::uint8_t kZ = 2;
+constexpr std::uint32_t kMostNumber = 100'000'000;  // of a T, H or D word
 
 /// A number that is the same on all ways to a place.
 constexpr std::uint32_t kOpen = 0xFFFFFFFEU;   // it is not
@@ -50,14 +52,6 @@ struct Selection {
 bool IsToolWord(WordOp op) {
   return op == WordOp::kTool || op == WordOp::kToolChange || op == WordOp::kToolOffset || op == WordOp::kLengthOffset ||
          op == WordOp::kRadiusOffset;
-}
-
-std::optional<std::uint32_t> WholeNumber(const Module& module, ExprId id) {
-  const ir::Expr& expr = module.exprs[id];
-  if (expr.op == ExprOp::kGroup) return WholeNumber(module, ExprId{std::size_t{expr.a}});
-  if (expr.op != ExprOp::kLiteral || expr.number < 0 || expr.number > 1e8 || expr.number != std::floor(expr.number))
-    return std::nullopt;
-  return static_cast<std::uint32_t>(expr.number);
 }
 
 /// `T5 D1`, `T="MILL_10" D2`: what stands behind a letter.
@@ -193,7 +187,7 @@ class Pass {
     bool change = false, length = false, radius = false;
     for (const WordId id : block.words) {
       const Word& word = module_.words[id];
-      const auto number = word.value.Valid() ? WholeNumber(module_, word.value) : std::nullopt;
+      const auto number = word.value.Valid() ? ir::WholeNumber(module_, word.value, kMostNumber) : std::nullopt;
       switch (word.op) {
         case WordOp::kTool:
           state.ready = number.value_or(kOpen);
@@ -364,7 +358,7 @@ class Pass {
       Word word = module_.words[word_id];
       switch (word.op) {
         case WordOp::kTool: {
-          const auto number = WholeNumber(module_, word.value);
+          const auto number = ir::WholeNumber(module_, word.value, kMostNumber);
           if (!number) {
             Refuse(block, module_.words[word_id], "a computed tool");
             break;
@@ -451,8 +445,9 @@ class Pass {
     }
     if (tool == nullptr && offset == nullptr) return;
     const Word at = tool != nullptr ? *tool : *offset;
-    const auto station = tool != nullptr ? WholeNumber(module_, tool->value) : std::optional<std::uint32_t>(0);
-    const auto number = offset != nullptr ? WholeNumber(module_, offset->value) : std::nullopt;
+    const auto station =
+        tool != nullptr ? ir::WholeNumber(module_, tool->value, kMostNumber) : std::optional<std::uint32_t>(0);
+    const auto number = offset != nullptr ? ir::WholeNumber(module_, offset->value, kMostNumber) : std::nullopt;
     if (!station || !number || *station == 0) {
       if (number && *number == 0) {
         words.insert(words.begin(), EdgeWord(0));  // T0000, T00: the offset is off

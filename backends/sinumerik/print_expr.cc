@@ -3,6 +3,7 @@
 #include "base/number_text.h"
 #include "base/result.h"
 #include "dialects/sinumerik/words.h"
+#include "ir/axis_names.h"
 
 namespace ncport::backends::sinumerik {
 
@@ -242,13 +243,6 @@ void Printer::List(std::uint32_t first, std::uint32_t count) {
   }
 }
 
-void Printer::AxisName(std::uint8_t axis) {
-  constexpr std::string_view kLetters = "XYZABCUVW";
-  if (axis < ir::kFirstNamedAxis) {
-    out_.Append(kLetters[axis]);
-  } else {
-    out_.Append(module_.View(module_.axis_names[axis - ir::kFirstNamedAxis]));
-  }
-}
+void Printer::AxisName(std::uint8_t axis) { out_.Append(ir::AxisName(module_, axis)); }
 
 }  // namespace ncport::backends::sinumerik

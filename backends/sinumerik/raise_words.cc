@@ -12,6 +12,7 @@
 
 #include "ir/block_words.h"
 #include "ir/builder.h"
+#include "ir/literal_value.h"
 #include "ir/transform/program_editor.h"
 
 namespace ncport::backends::sinumerik {
@@ -30,16 +31,6 @@ using ir::transform::ProgramEditor;
 
 // sinumerik-8.11: alarms 65000 to 65999 stop the program; 0 to 999 of the source fit.
 constexpr std::uint32_t kFirstAlarm = 65000, kLastAlarm = 65999;
-
-/// A literal whole number, or none.
-std::optional<std::uint32_t> WholeNumber(const Module& module, ExprId id) {
-  if (!id.Valid()) return std::nullopt;
-  const ir::Expr& expr = module.exprs[id];
-  if (expr.op == ExprOp::kGroup || expr.op == ExprOp::kConvert) return WholeNumber(module, ExprId{std::size_t{expr.a}});
-  if (expr.op != ExprOp::kLiteral || expr.number < 0 || expr.number != std::floor(expr.number) || expr.number > 4e9)
-    return std::nullopt;
-  return static_cast<std::uint32_t>(expr.number);
-}
 
 /// Number behind a letter: "G505" -> 505.
 std::optional<std::uint32_t> NumberBehind(std::string_view word, char letter) {
@@ -134,7 +125,7 @@ bool ArrangeTexts(const RaiseInput& input, Translation& out, diag::Sink& sink) {
             word.extra = Id<void>::kNone;  // the number of the message
             break;
           case WordOp::kAlarm: {
-            const auto number = WholeNumber(module, word.value);
+            const auto number = ir::WholeNumber(module, word.value);
             if (!number || *number > kLastAlarm - kFirstAlarm) {
               ok = false;
               sink.Report(diag::Code::kNotExpressible, module.RangeOf(block, word),
@@ -183,7 +174,7 @@ bool MapOffsets(const RaiseInput& input, Translation& out, diag::Sink& sink) {
         OffsetUse use{word.extra, 0, word.extra, 0};
         std::string name = fmt::format("G{}", word.extra);
         if (word.value.Valid()) {
-          const auto extension = WholeNumber(module, word.value);
+          const auto extension = ir::WholeNumber(module, word.value);
           if (!extension) {
             ok = false;
             sink.Report(diag::Code::kNotExpressible, module.RangeOf(block, word), "a computed work offset",
@@ -248,7 +239,7 @@ bool MapAuxiliaries(const RaiseInput& input, Translation& out, diag::Sink& sink)
           kept.push_back(word);
           continue;
         }
-        const auto number = WholeNumber(module, word.value);
+        const auto number = ir::WholeNumber(module, word.value);
         const bool common = number && (*number == 7 || *number == 8 || *number == 9);
         const std::string name = number ? fmt::format("M{}", *number) : std::string("a computed M function");
         const dialects::MCodeRule* rule = number ? rule_for(name) : nullptr;

@@ -3,6 +3,7 @@
 #include "dialects/fanuc/system_variables.h"
 #include "dialects/fanuc/words.h"
 #include "dialects/machine_parts.h"
+#include "ir/axis_names.h"
 
 namespace ncport::dialects::fanuc {
 namespace {
@@ -56,10 +57,8 @@ void SetNumberedSystems(const Profile& profile, ir::Machine& machine) {
     machine.numbered_systems.push_back(
         {range.first, range.last, range.base, range.kind, range.readable, range.writable, effect});
   }
-  constexpr std::string_view kLetters = "XYZABCUVW";
   for (const std::string& axis : profile.axes) {
-    const std::size_t letter = axis.size() == 1 ? kLetters.find(axis[0]) : std::string_view::npos;
-    if (letter != std::string_view::npos) machine.position_axes.push_back(static_cast<std::uint8_t>(letter));
+    if (const auto letter = ir::AxisOf(axis)) machine.position_axes.push_back(*letter);
   }
 }
 

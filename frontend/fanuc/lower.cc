@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/result.h"
+#include "ir/axis_names.h"
 namespace ncport::frontend::fanuc {
 
 using ir::WordOp;
@@ -10,12 +11,11 @@ namespace words = dialects::fanuc;
 
 Lowering::Lowering(ir::Module& module, const dialects::Profile& profile, words::System system, ReaderState& state)
     : module_(module), profile_(profile), system_(system), state_(state), codes_(profile, system) {
-  constexpr std::string_view kLetters = "XYZABCUVW";
   for (const std::string& axis : profile.axes) {
-    const std::size_t letter = axis.size() == 1 ? kLetters.find(axis[0]) : std::string_view::npos;
-    if (letter == std::string_view::npos) continue;
-    axes_ |= static_cast<std::uint16_t>(1U << letter);
-    axis_order_.push_back(static_cast<std::uint8_t>(letter));
+    const auto letter = ir::AxisOf(axis);
+    if (!letter) continue;
+    axes_ |= static_cast<std::uint16_t>(1U << *letter);
+    axis_order_.push_back(*letter);
   }
   increments_ = profile.point.Or(dialects::PointRule::kIncrement) == dialects::PointRule::kIncrement;
   for (std::uint32_t i = 1; i < module_.spellings.size(); ++i) {

@@ -6,6 +6,7 @@
 #include "dialects/iso/words.h"
 #include "frontend/common/chars.h"
 #include "frontend/iso/token_kind.h"
+#include "ir/axis_names.h"
 
 namespace ncport::frontend::iso {
 namespace {
@@ -13,7 +14,6 @@ namespace {
 using diag::Code;
 using K = TokenKind;
 
-constexpr std::string_view kAxisLetters = "XYZABCUVW";
 constexpr const char* kLiteral = "flat blocks have literal words only: a letter and a number";
 
 /// "G92 S{speed}" -> "G92"
@@ -27,8 +27,7 @@ std::string FirstWord(const dialects::Setting<std::string>& form) {
 TokenSource::TokenSource(const dialects::Profile& profile)
     : limit_code_(FirstWord(profile.spindle.limit)), lathe_(profile.IsLathe()) {
   for (const std::string& name : profile.axes) {
-    const std::size_t axis = name.size() == 1 ? kAxisLetters.find(name[0]) : std::string_view::npos;
-    if (axis != std::string_view::npos) axes_ = static_cast<std::uint16_t>(axes_ | (1U << axis));
+    if (const auto axis = ir::AxisOf(name)) axes_ = static_cast<std::uint16_t>(axes_ | (1U << *axis));
   }
 }
 
@@ -149,9 +148,9 @@ bool TokenSource::Classify(Token& token, std::string_view text, char letter, boo
     default:
       break;
   }
-  const std::size_t axis = kAxisLetters.find(letter);
-  if (axis == std::string_view::npos || (axes_ >> axis & 1U) == 0) return Fail(Code::kUnknownAddress, token.offset, 1);
-  token.sub = static_cast<std::uint8_t>(axis);
+  const auto axis = ir::AxisOf(letter);
+  if (!axis || (axes_ >> *axis & 1U) == 0) return Fail(Code::kUnknownAddress, token.offset, 1);
+  token.sub = *axis;
   return kind(K::kAxis, false);
 }
 

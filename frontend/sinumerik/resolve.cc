@@ -12,6 +12,7 @@
 #include "frontend/sinumerik/reader.h"
 #include "frontend/sinumerik/resolver.h"
 #include "frontend/sinumerik/word_slips.h"
+#include "ir/axis_names.h"
 
 namespace ncport::frontend::sinumerik {
 
@@ -137,7 +138,6 @@ ir::VariableId Resolver::FindVariable(std::string_view name) const {
 }
 
 bool Resolver::FindAxis(std::string_view name, std::uint8_t& axis) const {
-  constexpr std::string_view kLetters = "XYZABCUVW";
   for (std::size_t i = 0; i < module_.axis_names.size(); ++i) {
     if (IsWord(name, module_.View(module_.axis_names[i]))) {
       axis = static_cast<std::uint8_t>(ir::kFirstNamedAxis + i);
@@ -146,8 +146,8 @@ bool Resolver::FindAxis(std::string_view name, std::uint8_t& axis) const {
   }
   for (const std::string& known : profile_.axes) {
     if (!IsWord(name, known)) continue;
-    if (known.size() == 1 && kLetters.find(known[0]) != std::string_view::npos) {
-      axis = static_cast<std::uint8_t>(kLetters.find(known[0]));
+    if (const auto letter = ir::AxisOf(known)) {
+      axis = *letter;
       return true;
     }
     if (ir::kFirstNamedAxis + module_.axis_names.size() == ir::kMaxAxes) return false;

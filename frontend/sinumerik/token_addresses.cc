@@ -8,6 +8,7 @@
 #include "frontend/sinumerik/chars.h"
 #include "frontend/sinumerik/token_source.h"
 #include "frontend/sinumerik/word_index.h"
+#include "ir/axis_names.h"
 
 namespace ncport::frontend::sinumerik {
 
@@ -22,7 +23,7 @@ std::uint8_t LetterAxis(char upper) {
     std::array<std::uint8_t, 256> axes{};
     axes.fill(kNamedAxis);
     std::uint8_t number = 0;
-    for (const char letter : std::string_view("XYZABCUVW")) axes[static_cast<unsigned char>(letter)] = number++;
+    for (const char letter : ir::kAxisLetters) axes[static_cast<unsigned char>(letter)] = number++;
     return axes;
   }();
   return kAxes[static_cast<unsigned char>(upper)];

@@ -3,6 +3,7 @@
 // subprograms put it back in front of their end: a call with repeats then goes on by itself.
 #include <fmt/format.h>
 
+#include "ir/axis_names.h"
 #include "ir/transform/dimension_pass.h"
 #include "ir/word_values.h"
 
@@ -107,7 +108,7 @@ void DimensionPass::FindPassable() {
 ExprId DimensionPass::CellAt(Slot axis) {
   if (!at_[axis].Valid()) {
     Space space;
-    space.name = module_.strings.Intern(fmt::format("AT_{}", kDimensionAxes[axis]));
+    space.name = module_.strings.Intern(fmt::format("AT_{}", kAxisLetters[axis]));
     space.type = Type::kReal;
     space.lifetime = Lifetime::kProgram;
     space.start = StartValue::kUnknown;

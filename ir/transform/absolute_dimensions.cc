@@ -6,16 +6,15 @@
 #include <utility>
 #include <vector>
 
+#include "ir/axis_names.h"
 #include "ir/block_words.h"
+#include "ir/length_units.h"
 #include "ir/make_word.h"
 #include "ir/transform/dimension_pass.h"
 
 namespace ncport::ir::transform {
 
 namespace {
-
-constexpr double kInch = 25.4;
-constexpr double kFoot = 0.3048;  // ft/min in m/min
 
 /// Words that make the axis words of their block something else than a move.
 bool AxisWordsAreMoves(const Module& module, const Block& block) {
@@ -51,9 +50,7 @@ const Word* DimensionPass::WordOf(BlockId block, WordOp op) const {
   return nullptr;
 }
 
-double DimensionPass::UnitFactor(const ModalState& state) {
-  return state.units == Units::kInch || state.units == Units::kInchGeometry ? kInch : 1;
-}
+double DimensionPass::UnitFactor(const ModalState& state) { return MmPerLengthUnit(state.units); }
 
 bool DimensionPass::Conditional(const Block& block) const {
   return block.skip_level != Block::kNoSkip || HasWord(module_, block, WordOp::kWhen) ||
@@ -63,7 +60,7 @@ bool DimensionPass::Conditional(const Block& block) const {
 void DimensionPass::Unknown(BlockId block, const Word& word, std::uint8_t axis) {
   ok_ = false;
   diag::Diagnostic& finding = sink_.Report(diag::Code::kUnknownPosition, module_.RangeOf(module_.blocks[block], word),
-                                           std::string(1, kDimensionAxes[axis]));
+                                           std::string(1, kAxisLetters[axis]));
   finding.help = "program the axis once with an absolute word before the increment, on every way that leads here";
   const auto caller = unknown_callers_.find({program_.value, axis});
   if (caller != unknown_callers_.end())
@@ -190,7 +187,7 @@ void DimensionPass::RewriteCenter(BlockId id, Word& word, const Slots& in) {
   } else if (word.op == WordOp::kFeed && state.units == Units::kInch && state.feed_mode != FeedMode::kInverseTime) {
     const bool open = state.feed_mode == FeedMode::kUnknown && inverse_time_;
     if (open) RefuseOpenMode(id, word, "the feed mode (a length or 1/min)");
-    word.value = Scaled(word.value, kInch);
+    word.value = Scaled(word.value, kMmPerInch);
   } else if (word.op == WordOp::kSpeed && state.units == Units::kInch && state.speed_mode == SpeedMode::kUnknown) {
     if (surface_speed_) RefuseOpenMode(id, word, "the speed mode (1/min or surface speed)");
   } else if (word.op == WordOp::kSpeed && state.units == Units::kInch &&
@@ -201,7 +198,7 @@ void DimensionPass::RewriteCenter(BlockId id, Word& word, const Slots& in) {
       sink_.Report(diag::Code::kNotExpressible, module_.RangeOf(module_.blocks[id], word),
                    "a computed surface speed in ft/min", "whole m/min");
     }
-    word.value = Scaled(word.value, kFoot);
+    word.value = Scaled(word.value, kMetersPerFoot);
   } else if (word.op == WordOp::kCenter) {
     // A target's centre words are radius values on every axis.
     const std::optional<LinearForm> center = CenterForm(id, word, in);

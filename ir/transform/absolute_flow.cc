@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "ir/axis_names.h"
 #include "ir/block_words.h"
 #include "ir/make_word.h"
 #include "ir/transform/dimension_pass.h"
@@ -93,7 +94,7 @@ ExprId DimensionPass::Held(Slot slot) {
   VariableId& held = held_[program_.value][slot];
   if (!held.Valid()) {
     const std::string name =
-        slot < kMaxAxes ? fmt::format("POS_{}", kDimensionAxes[slot]) : std::string(kOtherNames[slot - kPoleFirst]);
+        slot < kMaxAxes ? fmt::format("POS_{}", kAxisLetters[slot]) : std::string(kOtherNames[slot - kPoleFirst]);
     held = NewLocal(module_, program_, name, Type::kReal);
   }
   return make_.Variable(held);

@@ -7,17 +7,12 @@
 #include <vector>
 
 #include "ir/make_word.h"
+#include "ir/plane_axes.h"
 #include "ir/transform/dimension_pass.h"
 
 namespace ncport::ir::transform {
 
 namespace {
-
-constexpr std::pair<std::uint8_t, std::uint8_t> AxesOf(Plane plane) {
-  return plane == Plane::kZX   ? std::pair<std::uint8_t, std::uint8_t>{2, 0}
-         : plane == Plane::kYZ ? std::pair<std::uint8_t, std::uint8_t>{1, 2}
-                               : std::pair<std::uint8_t, std::uint8_t>{0, 1};
-}
 
 bool IsArc(Motion motion) { return motion == Motion::kArcCw || motion == Motion::kArcCcw; }
 
@@ -34,7 +29,7 @@ bool KeepsDecimals(const FrameMatrix& matrix) {
 }
 
 bool Mirrored(const FrameState& state, Plane plane) {
-  const auto [first, second] = AxesOf(plane);
+  const auto [first, second, normal] = AxesOf(plane);
   const std::optional<PlaneImage> image = ImageOf(state.matrix, first, second);
   return image && image->mirrored;
 }
@@ -252,7 +247,7 @@ bool DimensionPass::FramedAxes(BlockId id, const Slots& in, const FrameMatrix& m
 
 bool DimensionPass::RadiusToCenter(BlockId id, const Slots& in, std::vector<Word>& words) {
   const ModalState state = flow_.At(program_, id);
-  const auto [first, second] = AxesOf(state.plane);
+  const auto [first, second, normal] = AxesOf(state.plane);
   const Word word = *WordOf(id, WordOp::kRadius);
   const LinearForm radius = FormOf(module_, std::ranges::find(words, WordOp::kRadius, &Word::op)->value);
   double way[2] = {};
@@ -333,7 +328,7 @@ bool DimensionPass::ApplyFrame(BlockId id, const Slots& in, std::vector<Word>& w
     return Refuse(id, at, "a move under a frame that is not the same on every way that leads here",
                   "set the frame in the program that moves, and take it back before its end");
   const bool arc = IsArc(motion) && (linear || center);
-  const auto [first, second] = AxesOf(state.plane);
+  const auto [first, second, normal] = AxesOf(state.plane);
   const std::optional<PlaneImage> image = ImageOf(frame.matrix, first, second);
   if (!frame.untouched) {
     const bool other = (motion >= Motion::kThread && motion <= Motion::kProbe) || computed || cycle;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "ir/analysis/forward_flow.h"
+#include "ir/axis_names.h"
 #include "ir/make_word.h"
 #include "ir/transform/dimension_pass.h"
 
@@ -182,7 +183,7 @@ bool DimensionPass::StaysExact(ProgramId program, BlockId block, const Word& wor
 }
 
 void DimensionPass::SayDrift(BlockId block, const Word& word, bool diameter) {
-  const std::string axis(1, kDimensionAxes[word.index]);
+  const std::string axis(1, kAxisLetters[word.index]);
   const double error = WordErrorOf(config_.word_error, config_.increment);
   sink_
       .Report(diag::Code::kIncrementDrifts, module_.RangeOf(module_.blocks[block], word), axis,

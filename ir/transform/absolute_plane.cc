@@ -8,6 +8,7 @@
 
 #include "ir/analysis/value_range.h"
 #include "ir/make_word.h"
+#include "ir/plane_axes.h"
 #include "ir/transform/dimension_pass.h"
 
 namespace ncport::ir::transform {
@@ -18,16 +19,6 @@ using Kind = PlaneWords::Kind;
 using Change = PlaneWords::Change;
 
 constexpr double kSamePoint = 1e-9;  // mm
-
-constexpr std::pair<std::uint8_t, std::uint8_t> AxesOf(Plane plane) {
-  return plane == Plane::kZX   ? std::pair<std::uint8_t, std::uint8_t>{2, 0}
-         : plane == Plane::kYZ ? std::pair<std::uint8_t, std::uint8_t>{1, 2}
-                               : std::pair<std::uint8_t, std::uint8_t>{0, 1};
-}
-
-constexpr Plane PlaneWithNormal(std::uint8_t normal) {
-  return normal == 1 ? Plane::kZX : normal == 0 ? Plane::kYZ : Plane::kXY;
-}
 
 bool IsArc(Motion motion) { return motion == Motion::kArcCw || motion == Motion::kArcCcw; }
 
@@ -129,7 +120,8 @@ PlaneWords DimensionPass::PlaneWordsOf(BlockId id) const {
                : via     ? Kind::kThrough
                          : Kind::kNone;
   found.plane = flow_.At(program_, id).plane;
-  std::tie(found.first, found.second) = AxesOf(found.plane);
+  found.first = AxesOf(found.plane).first;
+  found.second = AxesOf(found.plane).second;
   if (plane) {
     const Plane before = flow_.Before(program_, id).plane;
     found.plane_changes = before == Plane::kUnknown || found.plane == Plane::kUnknown ? Change::kMaybe
@@ -461,7 +453,7 @@ bool DimensionPass::LowerThrough(BlockId id, const Slots& in, std::vector<Word>&
     via[axis] = to_via.constant;
   }
   for (const std::uint8_t normal : {std::uint8_t{2}, std::uint8_t{1}, std::uint8_t{0}}) {
-    const auto [u, v] = AxesOf(PlaneWithNormal(normal));
+    const auto [u, v, across] = AxesOf(PlaneWithNormal(normal));
     const bool flat =
         known[normal] ? std::fabs(way[normal]) <= kSamePoint && std::fabs(via[normal]) <= kSamePoint : !named[normal];
     if (!flat || !known[u] || !known[v]) continue;

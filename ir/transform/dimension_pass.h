@@ -37,7 +37,6 @@ inline constexpr SlotMask kAllSlots = MaskOf(kSlots) - 1;
 inline constexpr SlotMask kPolarSlots =
     MaskOf(kPoleFirst) | MaskOf(kPoleSecond) | MaskOf(kPolarAngle) | MaskOf(kPolarRadius);
 
-inline constexpr std::string_view kDimensionAxes = "XYZABCUVW";
 inline constexpr SlotMask kAxisSlots = MaskOf(kMaxAxes) - 1;
 inline constexpr SlotMask kLinearSlots = 7;  // X Y Z
 inline constexpr SlotMask kShiftSlots = SlotMask{7} << kShift;

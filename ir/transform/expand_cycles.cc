@@ -8,7 +8,10 @@
 
 #include "ir/analysis/forward_flow.h"
 #include "ir/builder.h"
+#include "ir/length_units.h"
+#include "ir/literal_value.h"
 #include "ir/make_word.h"
+#include "ir/plane_axes.h"
 #include "ir/transform/new_local.h"
 #include "ir/transform/program_editor.h"
 
@@ -56,7 +59,8 @@ class Pass {
   void Transfer(ProgramId program, BlockId id, State& state) {
     program_ = program;
     const ModalState at = flow_.At(program, id);
-    Store(PartsOf(id, NormalOf(at.plane), IsHole(state.cycle)), at.distance == Distance::kIncremental, state, nullptr);
+    Store(PartsOf(id, AxesOf(at.plane).normal, IsHole(state.cycle)), at.distance == Distance::kIncremental, state,
+          nullptr);
   }
   /// Locals do not travel, nor do cycles: a call under one is refused where it stands. A modal call may run under one;
   /// then moves of its program are.
@@ -185,19 +189,9 @@ class Pass {
     return local;
   }
 
+  /// A field of the state as a number; none: it has to be worked out, or is not there.
   [[nodiscard]] std::optional<double> LiteralOf(ExprId id) const {
-    if (id.value == kUnset || id.value == kOpen) return std::nullopt;
-    const Expr& expr = module_.exprs[id];
-    if (expr.op == ExprOp::kGroup) return LiteralOf(ExprId{std::size_t{expr.a}});
-    if (expr.op == ExprOp::kNegate) {
-      const auto value = LiteralOf(ExprId{std::size_t{expr.a}});
-      return value ? std::optional(-*value) : std::nullopt;
-    }
-    return expr.op == ExprOp::kLiteral ? std::optional(expr.number) : std::nullopt;
-  }
-
-  [[nodiscard]] static std::uint8_t NormalOf(Plane plane) {
-    return plane == Plane::kZX ? 1 : plane == Plane::kYZ ? 0 : 2;
+    return id.value == kUnset || id.value == kOpen ? std::nullopt : LiteralValue(module_, id);
   }
 
   /// Data of the block as expressions; `assigns`: what must be computed in front of it.
@@ -272,7 +266,7 @@ class Pass {
   void MapBlock(BlockId id, const State& before, ProgramEditor& editor) {
     const Block block = module_.blocks[id];
     const ModalState at = flow_.At(program_, id);
-    const std::uint8_t normal = NormalOf(at.plane);
+    const std::uint8_t normal = AxesOf(at.plane).normal;
     const bool open = before.cycle == kOpen || before.cycle == kCallers;
     const Parts parts = PartsOf(id, normal, IsHole(before.cycle));
     bool moves = false, says = false;
@@ -434,7 +428,6 @@ class Pass {
       if (*seconds > 0) put(std::vector<Word>{MakeWord(WordOp::kDwellSeconds, 0, ExprId{state.fields[kDwell]})});
       return true;
     };
-    const bool inch = at.units == Units::kInch || at.units == Units::kInchGeometry;
     if (at.units == Units::kUnknown) {
       Refuse(block, "a drilling cycle whose unit of lengths is not known");
       return false;
@@ -455,7 +448,7 @@ class Pass {
         break;
       case Cycle::kPeck:
       case Cycle::kPeckChip:
-        if (!Pecks(block, state, inch ? 25.4 : 1, rapid, feed)) return false;
+        if (!Pecks(block, state, MmPerLengthUnit(at.units), rapid, feed)) return false;
         break;
       case Cycle::kTap:
       case Cycle::kTapLeft: {

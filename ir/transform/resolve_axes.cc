@@ -2,6 +2,8 @@
 
 #include <optional>
 
+#include "ir/plane_axes.h"
+
 namespace ncport::ir::transform {
 
 namespace {
@@ -17,11 +19,8 @@ std::optional<std::uint8_t> AxisOf(const Module& module, ExprId id, Plane plane)
     case ExprOp::kSystem: {
       const System& system = module.systems[SystemId{expr.a}];
       if (system.kind != SystemKind::kPlaneAxis || plane == Plane::kUnknown) return std::nullopt;
-      // First, second, normal axis: XY-Z, ZX-Y, YZ-X.
-      static constexpr std::uint8_t kAxes[3][3] = {{0, 1, 2}, {2, 0, 1}, {1, 2, 0}};
-      const auto row = static_cast<std::size_t>(plane) - static_cast<std::size_t>(Plane::kXY);
-      const std::size_t column = system.number == 1 ? 0 : system.number == 2 ? 1 : 2;
-      return kAxes[row][column];
+      const PlaneAxes axes = AxesOf(plane);
+      return system.number == 1 ? axes.first : system.number == 2 ? axes.second : axes.normal;
     }
     default:
       return std::nullopt;

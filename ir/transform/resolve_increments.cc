@@ -5,6 +5,7 @@
 
 #include "ir/analysis/flow_analyses.h"
 #include "ir/builder.h"
+#include "ir/length_units.h"
 
 namespace ncport::ir::transform {
 
@@ -108,7 +109,7 @@ class Pass {
     const bool minute = !thread && state_.feed_mode != FeedMode::kPerRevolution;
     const bool revolution = thread || state_.feed_mode != FeedMode::kPerMinute;
     const bool inch = state_.units != Units::kMm && state_.units != Units::kMmGeometry;
-    const bool mm = state_.units != Units::kInch && state_.units != Units::kInchGeometry;
+    const bool mm = !LengthsAreInches(state_.units);
     std::optional<double> unit;
     for (const bool per_revolution : {false, true}) {
       if (per_revolution ? !revolution : !minute) continue;

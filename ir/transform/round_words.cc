@@ -5,6 +5,7 @@
 
 #include "ir/analysis/flow_analyses.h"
 #include "ir/builder.h"
+#include "ir/length_units.h"
 #include "ir/transform/adapt_expressions.h"
 
 namespace ncport::ir::transform {
@@ -107,7 +108,7 @@ class Pass {
     }
     if (word.op == WordOp::kAxis && IsRotary(word.index)) return source_.increment;
     if (state_.units == Units::kMm || state_.units == Units::kMmGeometry) return source_.increment;
-    if (state_.units == Units::kInch || state_.units == Units::kInchGeometry) return source_.increment / 10;
+    if (LengthsAreInches(state_.units)) return source_.increment / 10;
     ok_ = false;
     sink_.Report(diag::Code::kUnknownModalState, module_.RangeOf(module_.blocks[block], word),
                  "the unit of lengths (mm or inch)", "the control rounds this word to it");

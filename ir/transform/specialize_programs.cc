@@ -15,7 +15,9 @@
 #include "ir/analysis/flow_analyses.h"
 #include "ir/block_words.h"
 #include "ir/builder.h"
+#include "ir/literal_value.h"
 #include "ir/make_word.h"
+#include "ir/plane_axes.h"
 #include "ir/structure.h"
 #include "ir/transform/constant_values.h"
 #include "ir/transform/linear_form.h"
@@ -54,7 +56,6 @@ class Pass {
   [[nodiscard]] bool CanFollow(ProgramId program) const;
   [[nodiscard]] Given GivenBy(const Call& call, bool modal) const;
   [[nodiscard]] std::set<std::uint32_t> NamedIn(ProgramId program) const;
-  [[nodiscard]] std::optional<double> LiteralOf(ExprId id) const;
   void Bind(ProgramId from, ProgramId program, const Given& given);
   // What is left of one.
   void Fit(ProgramId program, const analysis::Cfg& cfg, const analysis::ModalFlow& flow, bool keeps_locals);
@@ -74,25 +75,6 @@ class Pass {
   std::vector<ProgramId> specialized_;
   std::unordered_map<std::uint32_t, std::string> titles_;  // ProgramId
 };
-
-std::optional<double> Pass::LiteralOf(ExprId id) const {
-  const Expr& expr = module_.exprs[id];
-  switch (expr.op) {
-    case ExprOp::kLiteral:
-      return expr.number;
-    case ExprOp::kGroup:
-    case ExprOp::kPlus:
-      return LiteralOf(ExprId{expr.a});
-    case ExprOp::kNegate: {
-      const auto value = LiteralOf(ExprId{expr.a});
-      return value ? std::optional(0.0 - *value) : std::nullopt;
-    }
-    case ExprOp::kConvert:
-      return expr.type == Type::kReal ? LiteralOf(ExprId{expr.a}) : std::nullopt;
-    default:
-      return std::nullopt;
-  }
-}
 
 /// Variables that the blocks of the program name.
 std::set<std::uint32_t> Pass::NamedIn(ProgramId program) const {
@@ -125,7 +107,8 @@ void Pass::DropParameters() {
       for (const CallId id : calls) {
         for (const ArgId arg : module_.calls[id].args) {
           const Arg& given = module_.args[arg];
-          idle = idle && (given.position != i || !given.value.Valid() || LiteralOf(given.value).has_value());
+          idle =
+              idle && (given.position != i || !given.value.Valid() || LiteralValue(module_, given.value).has_value());
         }
       }
       stays[i] = idle ? 0 : 1;
@@ -173,7 +156,7 @@ Given Pass::GivenBy(const Call& call, bool modal) const {
     for (const ArgId arg : call.args) {
       if (module_.args[arg].position == i && module_.args[arg].value.Valid()) value = module_.args[arg].value;
     }
-    given[i] = value.Valid() ? LiteralOf(value) : std::optional(0.0);
+    given[i] = value.Valid() ? LiteralValue(module_, value) : std::optional(0.0);
     // A whole number that is not one is an alarm or rounds: it stays where that happens.
     if (parameter.type != Type::kReal && given[i] && *given[i] != std::floor(*given[i])) given[i].reset();
   }
@@ -393,9 +376,9 @@ SystemConstant Pass::SystemAt(ProgramId program, const analysis::ModalFlow& flow
     switch (system.kind) {
       case SystemKind::kPlaneAxis: {
         if (state.plane == Plane::kUnknown) return std::nullopt;
-        static constexpr std::uint8_t kAxes[3][3] = {{0, 1, 2}, {2, 0, 1}, {1, 2, 0}};
-        const auto row = static_cast<std::size_t>(state.plane) - static_cast<std::size_t>(Plane::kXY);
-        return ConstantValue{Type::kAxis, static_cast<double>(kAxes[row][system.number - 1])};
+        const PlaneAxes axes = AxesOf(state.plane);
+        const std::uint8_t axis = system.number == 1 ? axes.first : system.number == 2 ? axes.second : axes.normal;
+        return ConstantValue{Type::kAxis, static_cast<double>(axis)};
       }
       case SystemKind::kModalCallActive:
         switch (flow.ModalCallBefore(program, block)) {
@@ -484,7 +467,7 @@ ExprId Pass::Simplified(ExprId id) {
   const Expr expr = module_.exprs[id];
   if (OperandsOf(expr.op) != Operands::kBinary) return id;
   const ExprId a{expr.a}, b{expr.b};
-  const auto left = LiteralOf(a), right = LiteralOf(b);
+  const auto left = LiteralValue(module_, a), right = LiteralValue(module_, b);
   // A whole number in a place of a real one counts as real from here on.
   const auto alone = [&](ExprId rest) {
     return module_.exprs[rest].type == expr.type || module_.exprs[rest].type == Type::kReal ? rest : id;

@@ -1,0 +1,16 @@
+// Lengths in inches. Whatever runs, positions are kept in mm.
+#pragma once
+
+#include "ir/modes.h"
+
+namespace ncport::ir {
+
+inline constexpr double kMmPerInch = 25.4;
+inline constexpr double kMetersPerFoot = 0.3048;  // surface speeds: ft/min in m/min
+
+/// Lengths of the geometry are inches; the feed stays mm under kInchGeometry.
+constexpr bool LengthsAreInches(Units units) { return units == Units::kInch || units == Units::kInchGeometry; }
+/// Millimetres of one unit of length; 1 where the unit is not known.
+constexpr double MmPerLengthUnit(Units units) { return LengthsAreInches(units) ? kMmPerInch : 1; }
+
+}  // namespace ncport::ir

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "backends/fanuc/text_word.h"
+#include "backends/fanuc/tool_words.h"
 #include "dialects/fanuc/words.h"
 #include "ir/analysis/flow_analyses.h"
 #include "ir/builder.h"
@@ -49,15 +50,6 @@ bool IsTool(const Module& module, const Translation& out, BlockId id) {
     const std::string_view text = module.View(module.spellings[word.spelling].text);
     if (std::any_of(out.tools.begin(), out.tools.end(), [&](const ToolUse& use) { return use.target_words == text; }))
       return true;
-  }
-  return false;
-}
-
-bool HasWord(std::string_view line, std::string_view word) {
-  if (word.empty()) return false;
-  for (std::size_t at = line.find(word); at != std::string_view::npos; at = line.find(word, at + 1)) {
-    const std::size_t end = at + word.size();
-    if ((at == 0 || line[at - 1] == ' ') && (end == line.size() || line[end] == ' ')) return true;
   }
   return false;
 }
@@ -156,7 +148,7 @@ void PlaneOfSource(const RaiseInput& input, const Module& module, std::vector<st
   if (!plane || start.plane == ir::Plane::kUnknown || code(start.plane) == nullptr) return;
   for (std::string& line : head) {
     for (const ir::Plane other : {ir::Plane::kXY, ir::Plane::kZX, ir::Plane::kYZ}) {
-      if (other == start.plane || code(other) == nullptr || !HasWord(line, code(other)->text)) continue;
+      if (other == start.plane || code(other) == nullptr || !HoldsWord(line, code(other)->text)) continue;
       const std::size_t at = (" " + line + " ").find(" " + std::string(code(other)->text) + " ");
       line.replace(at, code(other)->text.size(), code(start.plane)->text);
     }
@@ -209,7 +201,7 @@ void FrameMainPrograms(const RaiseInput& input, Translation& out) {
   if (by_minute || feed == ir::FeedMode::kPerRevolution) {
     const std::string& other = by_minute ? revolution : minute;
     const bool differs =
-        std::any_of(head.begin(), head.end(), [&](const std::string& line) { return HasWord(line, other); });
+        std::any_of(head.begin(), head.end(), [&](const std::string& line) { return HoldsWord(line, other); });
     if (differs) feed_word = by_minute ? minute : revolution;
   }
   if (profile.IsMazakLathe()) {

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
@@ -12,6 +10,7 @@
 #include <vector>
 
 #include "backends/fanuc/text_word.h"
+#include "backends/fanuc/tool_words.h"
 #include "ir/analysis/forward_flow.h"
 #include "ir/builder.h"
 #include "ir/literal_value.h"
@@ -50,52 +49,6 @@ struct Selection {
 };
 
 int JoinPart(int a, int b) { return a == b ? a : Selection::kMixed; }
-
-/// The words of a [tools] line.
-struct TargetWords {
-  std::string call;  // "T1 M6"
-  std::uint32_t tool = 0;
-  std::optional<std::uint32_t> length, radius;
-};
-
-std::optional<std::uint32_t> NumberOf(std::string_view digits) {
-  std::uint32_t number = 0;
-  const auto [last, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  if (error != std::errc{} || last != digits.data() + digits.size()) return std::nullopt;
-  return number;
-}
-
-std::optional<TargetWords> Parse(std::string_view words) {
-  TargetWords parsed;
-  bool has_tool = false;
-  while (!words.empty()) {
-    const std::size_t end = std::min(words.find(' '), words.size());
-    const std::string_view word = words.substr(0, end);
-    words.remove_prefix(std::min(end + 1, words.size()));
-    if (word.empty()) continue;
-    const auto number = NumberOf(word.substr(1));
-    if (word[0] == 'H' && number) {
-      parsed.length = *number;
-      continue;
-    }
-    if (word[0] == 'D' && number) {
-      parsed.radius = *number;
-      continue;
-    }
-    if (word[0] == 'T' && number) {
-      parsed.tool = *number;
-      has_tool = true;
-    }
-    parsed.call += (parsed.call.empty() ? "" : " ") + std::string(word);
-  }
-  if (!has_tool) return std::nullopt;
-  return parsed;
-}
-
-/// The words of a tool call bring the tool in.
-bool HasChange(std::string_view call) {
-  return call.find(" M6") != std::string_view::npos || call.find(" M06") != std::string_view::npos;
-}
 
 class Mapper {
  public:
@@ -146,7 +99,7 @@ class Mapper {
     return words;
   }
   /// The target's words of a tool with an edge; none after a finding.
-  const TargetWords* Target(int tool, int edge, const SourceRange& at);
+  const MillToolWords* Target(int tool, int edge, const SourceRange& at);
   void Refuse(const SourceRange& at, std::string_view what, std::string_view help) {
     ok_ = false;
     auto& finding = sink_.Report(diag::Code::kNotExpressible, at, what, input_.profile->name);
@@ -162,8 +115,8 @@ class Mapper {
 
   std::vector<std::string> names_;  // "T1", `T="DRILL"`
   std::vector<std::pair<std::string, std::uint32_t>> source_tools_;
-  std::map<std::string, std::optional<TargetWords>> targets_;  // by source words; none: reported
-  std::vector<bool> selects_;                                  // per program: T, M6 or D in it or below
+  std::map<std::string, std::optional<MillToolWords>> targets_;  // by source words; none: reported
+  std::vector<bool> selects_;                                    // per program: T, M6 or D in it or below
   ir::analysis::ForwardFlow<Mapper> selections_;
   // The machine's setting; and where no program has an M6: there a tool that only stood ready would never come in.
   bool tool_word_changes_ = false;
@@ -324,11 +277,11 @@ Selection Mapper::Back(const ir::analysis::CallSite& site, const State& at, cons
   return behind;
 }
 
-const TargetWords* Mapper::Target(int tool, int edge, const SourceRange& at) {
+const MillToolWords* Mapper::Target(int tool, int edge, const SourceRange& at) {
   const std::string words = SourceWords(tool, edge);
   const auto known = targets_.find(words);
   if (known != targets_.end()) return known->second ? &*known->second : nullptr;
-  std::optional<TargetWords>& target = targets_[words];
+  std::optional<MillToolWords>& target = targets_[words];
   const dialects::WordMapping* mapping = input_.config == nullptr ? nullptr : input_.config->FindTool(words);
   const std::string quote = words.find('"') == std::string::npos ? "\"" : "'";
   const std::uint32_t number = source_tools_[static_cast<std::size_t>(tool - 1)].second;
@@ -340,7 +293,7 @@ const TargetWords* Mapper::Target(int tool, int edge, const SourceRange& at) {
     ok_ = false;
     return nullptr;
   }
-  target = Parse(mapping->target);
+  target = ParseMillTool(mapping->target);
   if (!target) {
     Refuse(at, fmt::format("{} as \"{}\" (no tool number)", words, mapping->target),
            fmt::format("write it like this in ncport.toml:  {}", line));
@@ -390,7 +343,7 @@ void Mapper::Rewrite(ProgramId program) {
         else
           ok_ = false;  // a computed tool, reported above
       } else if (changes) {
-        if (const TargetWords* target = Target(now.tool, now.edge, at)) {
+        if (const MillToolWords* target = Target(now.tool, now.edge, at)) {
           const bool ready = words.tool == nullptr;  // called by its T word already
           if (!ready && words.change && !HasChange(target->call)) {
             Refuse(at,
@@ -401,7 +354,7 @@ void Mapper::Rewrite(ProgramId program) {
           call = ready ? "M6" : target->call;
         }
       } else if (words.tool != nullptr && now.prepared > 0) {
-        if (const TargetWords* target = Target(now.prepared, input_.source_machine->tool_activates_edge ? 2 : 0, at))
+        if (const MillToolWords* target = Target(now.prepared, input_.source_machine->tool_activates_edge ? 2 : 0, at))
           call = fmt::format("T{}", target->tool);
       }
     }
@@ -424,7 +377,7 @@ void Mapper::Rewrite(ProgramId program) {
           Refuse(at, "a tool length that comes into force in an arc", "move Z in a straight line before");
         } else if (now.edge == 1) {
           kept.push_back(made_word(WordOp::kLengthOffset, 0, std::nullopt));
-        } else if (const TargetWords* target = Target(now.tool, now.edge, at)) {
+        } else if (const MillToolWords* target = Target(now.tool, now.edge, at)) {
           if (target->length) {
             kept.push_back(made_word(WordOp::kLengthOffset, 1, std::nullopt));
             kept.push_back(made_word(WordOp::kLengthOffset, 0, target->length));
@@ -448,7 +401,7 @@ void Mapper::Rewrite(ProgramId program) {
       }
       if (now.edge == 1) {
         kept.push_back(made_word(WordOp::kRadiusOffset, 0, 0));
-      } else if (const TargetWords* target = Target(now.tool, now.edge, at)) {
+      } else if (const MillToolWords* target = Target(now.tool, now.edge, at)) {
         if (target->radius) {
           kept.push_back(made_word(WordOp::kRadiusOffset, 0, target->radius));
         } else {

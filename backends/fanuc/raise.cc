@@ -10,12 +10,14 @@
 #include <string>
 #include <string_view>
 
+#include "backends/fanuc/arrange_spindle.h"
 #include "backends/fanuc/array_bounds.h"
 #include "backends/fanuc/corners.h"
 #include "backends/fanuc/dwells.h"
 #include "backends/fanuc/frame_blocks.h"
 #include "backends/fanuc/limit_m_words.h"
 #include "backends/fanuc/limit_nesting.h"
+#include "backends/fanuc/map_codes.h"
 #include "backends/fanuc/mazak_lathe_rules.h"
 #include "backends/fanuc/mill_tools.h"
 #include "backends/fanuc/modal_calls.h"
@@ -29,6 +31,7 @@
 #include "backends/fanuc/text_values.h"
 #include "backends/fanuc/thread_leads.h"
 #include "backends/fanuc/turning_offsets.h"
+#include "backends/fanuc/turret_tools.h"
 #include "backends/fanuc/word_digits.h"
 #include "dialects/fanuc/words.h"
 #include "dialects/machine.h"
@@ -457,7 +460,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   ok = MapDwells(input, out, sink) && ok;
   NameMotions(input, out);
   ok = ArrangeSpindle(input, out, sink) && ok;
-  ok = (profile.IsLathe() ? MapTools(input, out, sink) : MapMillTools(input, out, sink)) && ok;
+  ok = (profile.IsLathe() ? MapTurretTools(input, out, sink) : MapMillTools(input, out, sink)) && ok;
   const bool native = RotationsAreNative(input, out);
   const bool worked_in = !native && FramesAreWorkedIn(input, out);
   FramesToComments(out, worked_in);

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ir/block_words.h"
+#include "backends/common/aux_codes.h"
 #include "ir/builder.h"
 #include "ir/literal_value.h"
 #include "ir/transform/program_editor.h"
@@ -214,65 +214,12 @@ bool MapOffsets(const RaiseInput& input, Translation& out, diag::Sink& sink) {
 }
 
 bool MapAuxiliaries(const RaiseInput& input, Translation& out, diag::Sink& sink) {
-  Module& module = out.module;
-  ir::ExprBuilder make(module);
-  bool ok = true;
-  const auto rule_for = [&](std::string_view name) -> const dialects::MCodeRule* {
-    const auto find = [&](const std::vector<dialects::MCodeRule>& rules) {
-      const auto rule =
-          std::find_if(rules.begin(), rules.end(), [&](const dialects::MCodeRule& r) { return r.source == name; });
-      return rule == rules.end() ? nullptr : &*rule;
-    };
-    if (input.config != nullptr) {
-      if (const auto* rule = find(input.config->mcodes)) return rule;
-    }
-    return find(input.profile->mcodes);
+  const auto write = [](Module& module, Word& word, const std::string& target) {
+    const auto number = NumberBehind(target, 'M');
+    if (number) word.value = ir::ExprBuilder(module).Literal(*number, ir::Type::kInt);
+    return number;
   };
-  for (const ir::ProgramId program : module.programs.Ids()) {
-    for (const BlockId id : module.programs[program].blocks) {
-      const Block block = module.blocks[id];
-      std::vector<Word> kept;
-      bool changed = false;
-      for (const WordId word_id : block.words) {
-        Word word = module.words[word_id];
-        if (word.op != WordOp::kAux) {
-          kept.push_back(word);
-          continue;
-        }
-        const auto number = ir::WholeNumber(module, word.value);
-        const bool common = number && (*number == 7 || *number == 8 || *number == 9);
-        const std::string name = number ? fmt::format("M{}", *number) : std::string("a computed M function");
-        const dialects::MCodeRule* rule = number ? rule_for(name) : nullptr;
-        if (rule == nullptr && !common) {
-          sink.Report(diag::Code::kUnmappedCode, module.RangeOf(block, word), name).help =
-              fmt::format("add to ncport.toml:  [mcodes]  \"{0}\" = \"{0}\"  (pass), another word, or \"drop\"", name);
-          ok = false;
-          continue;
-        }
-        AuxUse use{*number, *number};
-        if (rule != nullptr) {
-          changed = true;
-          const auto target = NumberBehind(rule->target, 'M');
-          if (rule->target == "drop") {
-            use.target.reset();
-            out.losses.push_back({module.RangeOf(block, word), name + " left out, as [mcodes] says", true});
-          } else if (target) {
-            use.target = *target;
-            word.value = make.Literal(*target, ir::Type::kInt);
-          } else {
-            ok = false;
-            sink.Report(diag::Code::kUnmappedCode, module.RangeOf(block, word), name).help =
-                "the target of [mcodes] is one M function here";
-          }
-        }
-        if (use.target) kept.push_back(word);
-        out.aux.push_back(use);
-      }
-      if (!changed) continue;
-      ir::SetWords(module, module.blocks[id], kept);
-    }
-  }
-  return ok;
+  return backends::MapAuxiliaries(*input.profile, input.config, write, out, sink);
 }
 
 void DropSpellings(Translation& out) {

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
-#include <cmath>
-#include <set>
 #include <string>
 #include <string_view>
 
@@ -15,12 +13,14 @@
 #include "backends/fanuc/corners.h"
 #include "backends/fanuc/dwells.h"
 #include "backends/fanuc/frame_blocks.h"
+#include "backends/fanuc/legal_check.h"
 #include "backends/fanuc/limit_m_words.h"
 #include "backends/fanuc/limit_nesting.h"
 #include "backends/fanuc/map_codes.h"
 #include "backends/fanuc/mazak_lathe_rules.h"
 #include "backends/fanuc/mill_tools.h"
 #include "backends/fanuc/modal_calls.h"
+#include "backends/fanuc/program_numbers.h"
 #include "backends/fanuc/raise_words.h"
 #include "backends/fanuc/references.h"
 #include "backends/fanuc/refuse_functions.h"
@@ -36,7 +36,6 @@
 #include "dialects/fanuc/words.h"
 #include "dialects/machine.h"
 #include "ir/block_words.h"
-#include "ir/enum_names.h"
 #include "ir/transform/absolute_dimensions.h"
 #include "ir/transform/feeds_to_numbers.h"
 #include "ir/transform/fixed_indices.h"
@@ -87,75 +86,6 @@ NamesToNumbersConfig CellConfig(const RaiseInput& input, const SplitResult& spli
   return config;
 }
 
-/// Numbers of the programs: those of [programs], the source's own where it is a number, else free ones.
-bool NamePrograms(const RaiseInput& input, const SplitResult& split, Translation& out, diag::Sink& sink) {
-  Module& module = out.module;
-  const dialects::Profile& profile = *input.profile;
-  std::set<std::string> taken;
-  std::vector<std::string> names(module.programs.Size());
-  const auto source_name = [&](ir::ProgramId program) {
-    return std::string(module.View(module.programs[program].name));
-  };
-  bool ok = true;
-  for (const ir::ProgramId program : module.programs.Ids()) {
-    if (!names[program.value].empty()) continue;
-    std::vector<ir::ProgramId> parts{program};
-    for (const SplitProgram& whole : split.programs) {
-      if (whole.whole == program) parts = whole.parts;
-    }
-    const dialects::ProgramMapping* mapping =
-        input.config == nullptr ? nullptr : input.config->FindProgram(source_name(program));
-    if (mapping == nullptr) continue;
-    if (mapping->targets.size() < parts.size()) {
-      sink.Report(diag::Code::kNotExpressible, mapping->at,
-                  fmt::format("{} under one number: it is split at its tool changes", source_name(program)),
-                  profile.name)
-          .help = fmt::format("give {} numbers: {} = [4001, 4002]", parts.size(), source_name(program));
-      ok = false;
-      continue;
-    }
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-      names[parts[i].value] = mapping->targets[i];
-      if (!taken.insert(mapping->targets[i]).second) {
-        sink.Report(diag::Code::kDoubleName, mapping->at, mapping->targets[i]);
-        ok = false;
-      }
-    }
-  }
-  std::uint32_t next_main = 1001;
-  std::uint32_t next_sub = profile.names.macro_numbers.Known() ? profile.names.macro_numbers->first + 1 : 4001;
-  for (const ir::ProgramId program : module.programs.Ids()) {
-    std::string& name = names[program.value];
-    if (!name.empty()) continue;
-    const std::string source = source_name(program);
-    const int letter = std::toupper(static_cast<unsigned char>(source.empty() ? ' ' : source[0]));
-    const std::size_t digits = source.size() > 1 && (letter == 'L' || letter == 'O') ? 1 : 0;
-    const bool numbered =
-        source.find_first_not_of("0123456789", digits) == std::string::npos && source.size() - digits <= 4;
-    if (numbered && !taken.contains(source.substr(digits)) && std::stoul(source.substr(digits)) != 0) {
-      name = std::to_string(std::stoul(source.substr(digits)));
-    }
-    std::uint32_t& next = module.programs[program].kind == ir::ProgramKind::kMain ? next_main : next_sub;
-    while (name.empty()) {
-      const std::string wish = std::to_string(next++);
-      if (!taken.contains(wish)) name = wish;
-    }
-    taken.insert(name);
-  }
-  for (const bool main : {true, false}) {
-    for (const ir::ProgramId program : module.programs.Ids()) {
-      if ((module.programs[program].kind == ir::ProgramKind::kMain) != main) continue;
-      ir::ProgramId whole = program;
-      for (const SplitProgram& cut : split.programs) {
-        if (std::find(cut.parts.begin(), cut.parts.end(), program) != cut.parts.end()) whole = cut.whole;
-      }
-      out.programs.push_back({program, source_name(program), names[program.value], main, whole});
-    }
-  }
-  for (const ProgramName& name : out.programs) module.programs[name.program].name = module.strings.Intern(name.target);
-  return ok;
-}
-
 /// What [ranges] promises of parameters, where both ends are numbers.
 std::vector<ir::analysis::DeclaredRange> DeclaredRanges(const RaiseInput& input, const Module& module) {
   std::vector<ir::analysis::DeclaredRange> declared;
@@ -176,154 +106,6 @@ std::vector<ir::analysis::DeclaredRange> DeclaredRanges(const RaiseInput& input,
     }
   }
   return declared;
-}
-
-/// Without brackets and conversions that change nothing.
-ir::ExprId BareValue(const Module& module, ir::ExprId id) {
-  while (module.exprs[id].op == ir::ExprOp::kGroup || module.exprs[id].op == ir::ExprOp::kPlus ||
-         module.exprs[id].op == ir::ExprOp::kConvert)
-    id = ir::ExprId{module.exprs[id].a};
-  return id;
-}
-
-/// What is left must have a form in the target.
-bool CheckLegal(const RaiseInput& input, Translation& out, diag::Sink& sink) {
-  const Module& module = out.module;
-  const dialects::Profile& profile = *input.profile;
-  const auto system = *dialects::fanuc::SystemOf(profile);
-  bool ok = true;
-  std::set<std::string> asked;
-  for (const ir::ProgramId program : module.programs.Ids()) {
-    for (const ir::BlockId id : module.programs[program].blocks) {
-      const ir::Block& block = module.blocks[id];
-      const auto refuse = [&](const Word& word, std::string_view what) -> diag::Diagnostic& {
-        ok = false;
-        return sink.Report(diag::Code::kNotExpressible, module.RangeOf(block, word), what, profile.name);
-      };
-      // A setting that the profile leaves open is named once.
-      const auto need = [&](const auto& setting, const Word& word) {
-        if (setting.Known()) return;
-        ok = false;
-        if (asked.insert(std::string(setting.Key())).second)
-          static_cast<void>(dialects::Need(profile, setting, module.RangeOf(block, word), sink));
-      };
-      if ((block.flags & ir::Block::kRefused) != 0) {
-        ok = false;
-        continue;  // has its finding already
-      }
-      for (const ir::WordId word_id : block.words) {
-        const Word& word = module.words[word_id];
-        const auto values = [&](ir::ExprId value) {
-          VisitReads(module, value, [&](ir::ExprId read) {
-            const ir::Expr& expr = module.exprs[read];
-            if (expr.op != ir::ExprOp::kSystem) return;
-            const ir::System& system = module.systems[ir::SystemId{expr.a}];
-            diag::Diagnostic& finding = refuse(word, module.View(system.name));
-            if (system.kind == ir::SystemKind::kActiveFeed)
-              finding.help = "where F is one number on every way to this block, that number stands for it";
-          });
-        };
-        values(word.value);
-        if (word.op == WordOp::kAssign) values(word.Extra<ir::ExprId>());
-        if ((word.op == WordOp::kCall || word.op == WordOp::kModalCall) && word.Extra<ir::CallId>().Valid()) {
-          values(module.calls[word.Extra<ir::CallId>()].passes);
-          for (const ir::ArgId arg : module.calls[word.Extra<ir::CallId>()].args) values(module.args[arg].value);
-        }
-        const bool whole_only = word.op == WordOp::kSpeed || word.op == WordOp::kRadiusOffset ||
-                                word.op == WordOp::kLengthOffset || word.op == WordOp::kAux;
-        if (whole_only && word.value.Valid()) {
-          const ir::Expr& value = module.exprs[BareValue(module, word.value)];
-          if (value.op == ir::ExprOp::kLiteral && value.number != std::floor(value.number)) {
-            ok = false;
-            sink.Report(diag::Code::kWordTooCoarse, module.RangeOf(block, word), fmt::format("{:g}", value.number),
-                        "whole number");
-          }
-        }
-        const auto named = [&] {
-          if (word.op == WordOp::kMotion && word.spelling == 0)
-            return fmt::format("the motion mode {}", ir::NameOf(static_cast<ir::Motion>(word.index)));
-          return word.spelling != 0 ? std::string(module.View(module.spellings[word.spelling].text))
-                                    : std::string(ir::NameOf(word.op));
-        };
-        switch (word.op) {
-          case WordOp::kAssign:
-          case WordOp::kWhile:
-          case WordOp::kEndWhile:
-          case WordOp::kJump:
-          case WordOp::kWhen:
-          case WordOp::kAlarm:
-          case WordOp::kCenter:
-          case WordOp::kRadius:
-          case WordOp::kFeed:
-          case WordOp::kStartAngle:
-          case WordOp::kSpeed:
-          case WordOp::kRadiusOffset:
-          case WordOp::kAux:
-          case WordOp::kChamfer:  // MapCorners left those only that the target has
-            break;
-          case WordOp::kSpeedLimit:
-            need(profile.spindle.limit, word);
-            break;
-          case WordOp::kProgramEnd:
-            need(profile.words.end, word);
-            break;
-          case WordOp::kFrame:  // G52, G68, G69; all others were refused
-          case WordOp::kFrameAngle:
-            break;
-          case WordOp::kReturn:
-            need(profile.words.sub_end, word);
-            if (word.value.Valid()) refuse(word, "a return to a label of the caller");
-            break;
-          case WordOp::kInert:
-            // Made by a pass of this target, or a word of the source that has no effect here: that one is not carried
-            // over.
-            if (word.spelling != 0 && module.View(module.spellings[word.spelling].rule).empty()) break;
-            refuse(word, named());
-            break;
-          case WordOp::kAxis:
-            if (word.index >= ir::kLetterAxes) {
-              refuse(word, "an axis with a name of its own");
-            } else if (word.mode == ir::ValueMode::kIncremental && !HasIncrementLetter(profile, word.index)) {
-              refuse(word, "an increment of one axis");
-            }
-            break;
-          case WordOp::kCall:
-          case WordOp::kModalCall: {
-            const auto call = word.Extra<ir::CallId>();
-            if (!call.Valid()) break;
-            if (module.calls[call].program.Valid()) break;
-            const ir::ExprId name = module.calls[call].name_expr;
-            const bool text = name.Valid() && module.exprs[name].op == ir::ExprOp::kText;
-            ok = false;
-            sink.Report(diag::Code::kUnknownProgram, module.RangeOf(block, word),
-                        module.View(text ? StringId{std::size_t{module.exprs[name].a}} : module.calls[call].name));
-            break;
-          }
-          case WordOp::kSpindle:
-            if (word.extra == static_cast<std::uint32_t>(ir::SpindleState::kPositioned)) {
-              refuse(word, named());
-            } else {
-              const auto state = static_cast<ir::SpindleState>(word.extra);
-              const auto& words = profile.spindle;
-              need(state == ir::SpindleState::kCw    ? words.cw
-                   : state == ir::SpindleState::kCcw ? words.ccw
-                                                     : words.stop,
-                   word);
-            }
-            break;
-          case WordOp::kDwellSeconds:
-            need(profile.words.dwell, word);
-            break;
-          default: {
-            const std::uint32_t extra = word.op == WordOp::kWorkOffset ? word.extra : Id<void>::kNone;
-            if (dialects::fanuc::Codes(system).FindMeaning(word.op, word.index, extra) == nullptr)
-              refuse(word, named());
-          }
-        }
-      }
-    }
-  }
-  return ok;
 }
 
 /// Modes that a target without words for them has always: the words go.
@@ -509,7 +291,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   NamesToNumbersResult names = NamesToNumbers(module, CellConfig(input, split), sink);
   out.cells = std::move(names.map);
   if (!names.ok) return false;
-  ok = NamePrograms(input, split, out, sink);
+  ok = NumberPrograms(input, split, out, sink);
   if (ok) TellCarriedPositions(carried, out);
   TellKeptIncrements(kept, out);
   GuardMacros(input, out);

@@ -95,16 +95,18 @@ class Lowering {
   bool When(const Action& action);
   bool Mark(const Action& action);
 
-  // Words (lower_words.cc).
+  // Codes (lower_codes.cc).
   bool Scan(Context& context);
-  bool AddPending(const Pending& pending, const Context& context);
   bool AddCode(const Pending& pending, const Context& context);
   bool AddSpecial(const Pending& pending, const Context& context);
+  bool AddTurningOffset(const Pending& pending);
+
+  // Words (lower_words.cc).
+  bool AddPending(const Pending& pending, const Context& context);
   bool AddAxis(const Pending& pending, const Context& context, const dialects::fanuc::AddressRow& row);
   bool AddLetter(const Pending& pending, const Context& context, const dialects::fanuc::AddressRow& row);
   bool AddTool(const Pending& pending);
   bool AddFeed(const Pending& pending);
-  bool AddTurningOffset(const Pending& pending);
   bool AddOption(const Pending& pending);
   bool AddCycleWord(const Pending& pending, const Context& context, bool& done);
   bool Meaningless(const Pending& pending);
@@ -129,6 +131,8 @@ class Lowering {
   bool Return(const Context& context, const Pending& pending);
   bool DataSetting(const Context& context);
   [[nodiscard]] const Pending* FindLetter(char letter) const;
+  /// Some word of the block has the letter of an axis.
+  [[nodiscard]] bool NamesAxes() const;
   ir::ExprId ValueOf(const Pending& pending, std::uint8_t& flags);
 
   [[nodiscard]] const Token& At(std::size_t index) const { return tokens_[index]; }

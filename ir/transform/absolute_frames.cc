@@ -14,8 +14,6 @@ namespace ncport::ir::transform {
 
 namespace {
 
-bool IsArc(Motion motion) { return motion == Motion::kArcCw || motion == Motion::kArcCcw; }
-
 bool Sided(CutterComp comp) { return comp == CutterComp::kLeft || comp == CutterComp::kRight; }
 
 /// Only turns by right angles, mirrors and whole factors.

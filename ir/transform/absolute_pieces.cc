@@ -16,8 +16,6 @@ constexpr double kSmall = 1e-9;
 constexpr double kDegrees = 180 / 3.14159265358979323846;
 constexpr double kMostTurns = 99;  // that are written out
 
-bool IsArc(Motion motion) { return motion == Motion::kArcCw || motion == Motion::kArcCcw; }
-
 Word MotionWord(Motion motion) { return MakeWord(WordOp::kMotion, motion); }
 
 void NameMotion(std::vector<Word>& words, Motion motion) {

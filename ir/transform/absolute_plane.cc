@@ -1,8 +1,7 @@
-// Opening angles, intermediate points and polar words as end points and centres (part of absolute_dimensions.h).
+// Opening angles and intermediate points as end points and centres (part of absolute_dimensions.h).
 #include <algorithm>
 #include <cmath>
 #include <string_view>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -20,26 +19,10 @@ using Change = PlaneWords::Change;
 
 constexpr double kSamePoint = 1e-9;  // mm
 
-bool IsArc(Motion motion) { return motion == Motion::kArcCw || motion == Motion::kArcCcw; }
-
 Word MadeWord(WordOp op, std::uint8_t index, ValueMode mode, ExprId value) {
   Word word = MakeWord(op, index, value);
   word.mode = mode;
   return word;
-}
-
-/// Takes the words with `op` out; returns the place of the first one, or the end.
-std::size_t Drop(std::vector<Word>& words, WordOp op) {
-  std::size_t place = words.size();
-  for (std::size_t i = 0; i < words.size();) {
-    if (words[i].op != op) {
-      ++i;
-      continue;
-    }
-    place = std::min(place, i);
-    words.erase(words.begin() + static_cast<std::ptrdiff_t>(i));
-  }
-  return std::min(place, words.size());
 }
 
 /// Joins the values of the watched words over all ways to them.
@@ -136,30 +119,6 @@ void DimensionPass::FindPlaneWords() {
   for (std::uint32_t i = 0; i < blocks_.count; ++i) plane_words_[i] = PlaneWordsOf(blocks_[i]);
 }
 
-Step DimensionPass::PolarStep(BlockId id, Slot slot) const {
-  const PlaneWords& plane = PlaneAt(id);
-  const bool angle = slot == kPolarAngle, radius = slot == kPolarRadius;
-  if (plane.kind == Kind::kPole) return angle ? Step::kLost : radius ? Step::kNone : Step::kComputed;
-  if (plane.kind == Kind::kPolar && (angle || radius)) {
-    if (WordOf(id, angle ? WordOp::kPolarAngle : WordOp::kPolarRadius) != nullptr) return Step::kComputed;
-  }
-  if (plane.plane_changes == Change::kNo || radius) return Step::kNone;
-  return angle || plane.plane_changes == Change::kMaybe ? Step::kLost : Step::kComputed;
-}
-
-bool DimensionPass::PolarAngleAdds(BlockId id) const {
-  const Word* word = WordOf(id, WordOp::kPolarAngle);
-  if (word == nullptr) return false;
-  return word->mode == ValueMode::kIncremental ||
-         (word->mode == ValueMode::kModal && flow_.At(program_, id).distance == Distance::kIncremental);
-}
-
-/// An arc to a polar end point without another word for its centre turns about the pole.
-bool DimensionPass::PoleIsCenter(BlockId id) const {
-  return PlaneAt(id).kind == Kind::kPolar && IsArc(flow_.At(program_, id).motion) &&
-         WordOf(id, WordOp::kCenter) == nullptr && WordOf(id, WordOp::kRadius) == nullptr;
-}
-
 bool DimensionPass::UsesForPlane(BlockId id, Slot slot) const {
   const PlaneWords& plane = PlaneAt(id);
   const bool pole = slot == kPoleFirst || slot == kPoleSecond;
@@ -223,65 +182,6 @@ std::optional<PlanePoint> DimensionPass::CenterOfPlane(BlockId id, const Slots& 
     (word.index == plane.first ? center.u : center.v) = *form;
   }
   return center;
-}
-
-std::optional<PlanePoint> DimensionPass::PoleOf(BlockId id, const Slots& in) const {
-  switch (PlaneAt(id).plane_changes) {
-    case Change::kYes:
-      return PlanePoint{};
-    case Change::kMaybe:
-      return std::nullopt;
-    case Change::kNo:
-      break;
-  }
-  if (!in[kPoleFirst].Known() || !in[kPoleSecond].Known()) return std::nullopt;
-  return PlanePoint{in[kPoleFirst].form, in[kPoleSecond].form};
-}
-
-std::optional<PlanePoint> DimensionPass::PolarEnd(BlockId id, const Slots& in) {
-  const std::optional<PlanePoint> pole = PoleOf(id, in);
-  const auto value = [&](Slot slot, WordOp op) -> std::optional<LinearForm> {
-    if (WordOf(id, op) != nullptr) return Computed(id, slot, in);
-    if (slot == kPolarAngle && PlaneAt(id).plane_changes != Change::kNo) return std::nullopt;
-    if (!in[slot].Known()) return std::nullopt;
-    return in[slot].form;
-  };
-  const std::optional<LinearForm> radius = value(kPolarRadius, WordOp::kPolarRadius);
-  const std::optional<LinearForm> angle = value(kPolarAngle, WordOp::kPolarAngle);
-  if (!pole || !radius || !angle || PlaneAt(id).plane == Plane::kUnknown) return std::nullopt;
-  return PolarPoint(module_, *pole, *radius, *angle);
-}
-
-std::optional<PlanePoint> DimensionPass::NewPole(BlockId id, const Slots& in) {
-  const PlaneWords& plane = PlaneAt(id);
-  if (plane.plane == Plane::kUnknown) return std::nullopt;
-  PlanePoint pole;
-  switch (static_cast<PoleBase>(WordOf(id, WordOp::kPole)->index)) {
-    case PoleBase::kWorkpieceZero:
-      break;
-    case PoleBase::kLastPosition:
-    case PoleBase::kLastPole: {
-      const bool here = WordOf(id, WordOp::kPole)->index == static_cast<std::uint8_t>(PoleBase::kLastPosition);
-      const std::optional<PlanePoint> base = here ? StartOfPlane(id, in) : PoleOf(id, in);
-      if (!base) return std::nullopt;
-      pole = *base;
-      break;
-    }
-  }
-  const double unit = UnitFactor(flow_.At(program_, id));
-  const Word* angle = WordOf(id, WordOp::kPolarAngle);
-  const Word* radius = WordOf(id, WordOp::kPolarRadius);
-  if (angle != nullptr || radius != nullptr) {
-    return PolarPoint(module_, pole, radius == nullptr ? LinearForm{} : ScaledForm(radius->value, unit),
-                      angle == nullptr ? LinearForm{} : FormOf(module_, angle->value));
-  }
-  for (const std::uint8_t axis : {plane.first, plane.second}) {
-    const Word* word = WordFor(id, axis);
-    if (word == nullptr) continue;
-    LinearForm& coordinate = axis == plane.first ? pole.u : pole.v;
-    coordinate = Sum(module_, coordinate, ScaledForm(word->value, unit));
-  }
-  return pole;
 }
 
 std::optional<PlanePoint> DimensionPass::EndOfPlane(BlockId id, const Slots& in) {
@@ -400,7 +300,7 @@ bool DimensionPass::LowerOpening(BlockId id, const Slots& in, std::vector<Word>&
       return Refuse(id, opening, "an opening angle beside a centre and an end point");
     const std::optional<PlanePoint> end = EndOfPlane(id, in);
     if (!end) return Refuse(id, opening, "an opening angle beside a centre outside the plane");
-    Drop(words, WordOp::kOpeningAngle);
+    DropWords(words, WordOp::kOpeningAngle);
     if (!full) AddAxes(plane, *end, words);
     return true;
   }
@@ -410,7 +310,7 @@ bool DimensionPass::LowerOpening(BlockId id, const Slots& in, std::vector<Word>&
   const PlanePoint way{Sum(module_, *end_u, start->u, -1), Sum(module_, *end_v, start->v, -1)};
   if (way.u.IsConstant() && way.v.IsConstant() && std::hypot(way.u.constant, way.v.constant) <= kSamePoint)
     return Refuse(id, opening, "an opening angle of an arc that ends where it starts");
-  Drop(words, WordOp::kOpeningAngle);
+  DropWords(words, WordOp::kOpeningAngle);
   AddCenters(plane, CenterByOpening(module_, way, angle.constant, clockwise), words);
   return true;
 }
@@ -462,8 +362,8 @@ bool DimensionPass::LowerThrough(BlockId id, const Slots& in, std::vector<Word>&
     if (state.plane != PlaneWithNormal(normal))
       return Refuse(id, first, "an arc through a point outside the active plane",
                     "select the plane of the arc before it");
-    Drop(words, WordOp::kVia);
-    Drop(words, WordOp::kMotion);
+    DropWords(words, WordOp::kVia);
+    DropWords(words, WordOp::kMotion);
     words.insert(words.begin(),
                  MadeWord(WordOp::kMotion, static_cast<std::uint8_t>(arc->clockwise ? Motion::kArcCw : Motion::kArcCcw),
                           ValueMode::kModal, {}));
@@ -475,70 +375,6 @@ bool DimensionPass::LowerThrough(BlockId id, const Slots& in, std::vector<Word>&
   }
   return Refuse(id, first, "an arc through a point whose distances from the start are not known numbers in one plane",
                 "write the arc with its centre or radius");
-}
-
-bool DimensionPass::LowerPolar(BlockId id, const Slots& in, std::vector<Word>& words) {
-  const PlaneWords& plane = PlaneAt(id);
-  const Word* radius = WordOf(id, WordOp::kPolarRadius);
-  const Word polar = radius != nullptr ? *radius : *WordOf(id, WordOp::kPolarAngle);
-  const Motion motion = flow_.At(program_, id).motion;
-  if (motion != Motion::kRapid && motion != Motion::kLinear && !IsArc(motion))
-    return Refuse(id, polar, "polar words of a motion that is neither straight nor an arc");
-  if (WordOf(id, WordOp::kOpeningAngle) != nullptr || WordOf(id, WordOp::kTurns) != nullptr ||
-      WordOf(id, WordOp::kMachineCoords) != nullptr)
-    return Refuse(id, polar, "polar words beside an opening angle, turns or machine coordinates");
-  if (WordFor(id, plane.first) != nullptr || WordFor(id, plane.second) != nullptr)
-    return Refuse(id, polar, "polar words beside axis words of the plane");
-  if (radius != nullptr && !Within(id, *radius, 0, analysis::kInfinity))
-    return Refuse(id, *radius, "a polar radius that may be negative",
-                  "test it before, or declare its range in [ranges]");
-  const std::optional<PlanePoint> end = PolarEnd(id, in);
-  if (!end) {
-    const std::string_view help =
-        "write pole, angle and radius in this program before it, on every way that leads here";
-    return Refuse(id, polar, "a polar end point whose pole, angle or radius is not known here", help);
-  }
-  std::optional<PlanePoint> center;
-  if (PoleIsCenter(id)) {
-    const std::optional<PlanePoint> start = StartOfPlane(id, in);
-    const std::optional<PlanePoint> pole = PoleOf(id, in);
-    if (!start) return Refuse(id, polar, "an arc about the pole whose start point is not known");
-    center = PlanePoint{Sum(module_, pole->u, start->u, -1), Sum(module_, pole->v, start->v, -1)};
-  }
-  Drop(words, WordOp::kPolarAngle);
-  Drop(words, WordOp::kPolarRadius);
-  AddAxes(plane, *end, words);
-  if (center) AddCenters(plane, *center, words);
-  return true;
-}
-
-/// The pole is in the end points now.
-void DimensionPass::RemovePole(BlockId id, const Slots& in) {
-  const PlaneWords& plane = PlaneAt(id);
-  const Word pole = *WordOf(id, WordOp::kPole);
-  std::vector<Word> kept;
-  for (const WordId word_id : module_.blocks[id].words) {
-    const Word& word = module_.words[word_id];
-    switch (word.op) {
-      case WordOp::kPole:
-      case WordOp::kPolarAngle:
-      case WordOp::kPolarRadius:
-        break;
-      case WordOp::kAxis:
-        if (word.index == source_.transverse_axis && flow_.At(program_, id).diameter != Diameter::kRadius) {
-          Refuse(id, pole, "a pole in an axis that is programmed as diameter");
-          return;
-        }
-        break;
-      default:
-        kept.push_back(word);
-    }
-  }
-  if (plane.plane == Plane::kUnknown || (in[0].kind != SlotValue::Kind::kNoWay && !NewPole(id, in))) {
-    Refuse(id, pole, "a pole whose plane or base is not known here");
-    return;
-  }
-  rewritten_.emplace_back(id, std::move(kept));
 }
 
 }  // namespace ncport::ir::transform

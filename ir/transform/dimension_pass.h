@@ -1,6 +1,6 @@
 // The inside of absolute_dimensions.h: what its parts share. Axis words are in absolute_dimensions.cc, the flow of
-// positions in absolute_flow.cc, arcs and polar words in absolute_plane.cc and absolute_pieces.cc, frames in
-// absolute_frames.cc, positions across calls in absolute_calls.cc, increments that stay in absolute_kept.cc.
+// positions in absolute_flow.cc, arcs in absolute_plane.cc and absolute_pieces.cc, polar words in absolute_polar.cc,
+// frames in absolute_frames.cc, positions across calls in absolute_calls.cc, increments that stay in absolute_kept.cc.
 #pragma once
 
 #include <array>
@@ -79,6 +79,12 @@ struct PlaneWords {
   [[nodiscard]] bool Moves() const { return kind != Kind::kNone && kind != Kind::kPole; }
   [[nodiscard]] bool HasAxis(std::uint8_t axis) const { return axis == first || axis == second; }
 };
+
+constexpr bool IsArc(Motion motion) { return motion == Motion::kArcCw || motion == Motion::kArcCcw; }
+
+inline void DropWords(std::vector<Word>& words, WordOp op) {
+  std::erase_if(words, [op](const Word& word) { return word.op == op; });
+}
 
 /// What the programs below a call move and write.
 struct Effects {

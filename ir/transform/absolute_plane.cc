@@ -364,9 +364,7 @@ bool DimensionPass::LowerThrough(BlockId id, const Slots& in, std::vector<Word>&
                     "select the plane of the arc before it");
     DropWords(words, WordOp::kVia);
     DropWords(words, WordOp::kMotion);
-    words.insert(words.begin(),
-                 MadeWord(WordOp::kMotion, static_cast<std::uint8_t>(arc->clockwise ? Motion::kArcCw : Motion::kArcCcw),
-                          ValueMode::kModal, {}));
+    words.insert(words.begin(), MakeWord(WordOp::kMotion, arc->clockwise ? Motion::kArcCw : Motion::kArcCcw));
     PlaneWords plane = PlaneAt(id);
     plane.first = u;
     plane.second = v;

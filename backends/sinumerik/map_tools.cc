@@ -3,16 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <map>
 #include <optional>
 #include <set>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <vector>
 
+#include "backends/sinumerik/tool_rows.h"
 #include "ir/analysis/forward_flow.h"
 #include "ir/builder.h"
 #include "ir/literal_value.h"
@@ -54,37 +51,6 @@ bool IsToolWord(WordOp op) {
          op == WordOp::kRadiusOffset;
 }
 
-/// `T5 D1`, `T="MILL_10" D2`: what stands behind a letter.
-struct TargetTool {
-  std::string words, name;
-  std::uint32_t tool = 0, edge = 1;
-};
-
-std::optional<TargetTool> ParseTarget(std::string_view words) {
-  TargetTool target;
-  target.words = words;
-  bool tool = false;
-  for (std::size_t begin = 0; begin < words.size();) {
-    std::size_t end = begin;
-    for (bool quoted = false; end < words.size() && (quoted || words[end] != ' '); ++end) quoted ^= words[end] == '"';
-    const std::string_view word = words.substr(begin, end - begin);
-    begin = end + 1;
-    if (word.empty()) continue;
-    const char* last = word.data() + word.size();
-    if (word.starts_with("T=\"") && word.ends_with('"') && word.size() > 4) {
-      target.name = word.substr(3, word.size() - 4);
-      tool = true;
-    } else if (word[0] == 'T' || word[0] == 'D') {
-      std::uint32_t& number = word[0] == 'T' ? target.tool : target.edge;
-      if (std::from_chars(word.data() + 1, last, number).ptr != last || word.size() < 2) return std::nullopt;
-      tool = tool || word[0] == 'T';
-    } else if (word != "M6") {
-      return std::nullopt;
-    }
-  }
-  return tool ? std::optional(target) : std::nullopt;
-}
-
 class Pass {
  public:
   // The data flow.
@@ -124,7 +90,8 @@ class Pass {
         make_(out.module),
         analyses_(input.Analyse(out.module)),
         flow_(analyses_.Modal()),
-        selections_(analyses_.Sources(), *this) {}
+        selections_(analyses_.Sources(), *this),
+        rows_(input, out, sink) {}
 
   bool Run() {
     for (const ir::ProgramId program : module_.programs.Ids()) {
@@ -146,7 +113,7 @@ class Pass {
     }
     selections_.Run();
     for (const ir::ProgramId program : module_.programs.Ids()) Map(program);
-    return ok_;
+    return ok_ && rows_.Ok();
   }
 
  private:
@@ -221,97 +188,15 @@ class Pass {
     }
   }
 
-  // --- the map
+  // --- the text
 
-  const TargetTool* Find(const Block& block, const Word& word, std::uint32_t tool, std::uint32_t length,
-                         std::uint32_t radius) {
-    const auto key = std::tuple{tool, length, radius};
-    if (const auto known = found_.find(key); known != found_.end()) return &known->second;
-    const std::string t = fmt::format("T{}", tool);
-    std::vector<std::string> keys;
-    if (radius != 0) keys.push_back(fmt::format("{} H{} D{}", t, length, radius));
-    // Without a D a row stands for one radius: an edge has one.
-    const auto radius_of = radius_of_.try_emplace({tool, length}, radius).first;
-    if (radius_of->second == 0) radius_of->second = radius;
-    if (radius == 0 || radius_of->second == radius) keys.push_back(fmt::format("{} H{}", t, length));
-    // The tool alone stands for one length and one radius.
-    const auto [fixed, added] = fixed_.try_emplace(tool, std::pair{length, radius});
-    const bool same_length = fixed->second.first == length;
-    if (radius != 0 && fixed->second.second == 0) fixed->second.second = radius;
-    const bool same_radius = radius == 0 || fixed->second.second == radius;
-    if (same_length && same_radius) keys.push_back(t);
-    const dialects::WordMapping* mapping = nullptr;
-    for (const std::string& each : keys) {
-      if (mapping == nullptr && input_.config != nullptr) mapping = input_.config->FindTool(each);
-    }
-    return Take(block, word, mapping, keys.front(), key);
-  }
-
-  const TargetTool* Take(const Block& block, const Word& word, const dialects::WordMapping* mapping,
-                         const std::string& key_text, std::tuple<std::uint32_t, std::uint32_t, std::uint32_t> key) {
-    const std::optional<TargetTool> target = mapping == nullptr ? std::nullopt : ParseTarget(mapping->target);
-    if (!target) {
-      ok_ = false;
-      if (!asked_.insert(key_text).second) return nullptr;
-      sink_.Report(diag::Code::kUnmappedTool, module_.RangeOf(block, word), key_text).help = fmt::format(
-          "add to ncport.toml, with the tool and edge of your machine:  [tools]  \"{}\" = \"T1 D1\"", key_text);
-      return nullptr;
-    }
-    const auto [tool, length, radius] = key;
-    ToolUse use;
-    use.source_words = key_text;
-    use.target_words = target->words;
-    use.source_tool = tool;
-    use.source_edge = length;
-    use.source_radius = radius;
-    use.target_name = target->name;
-    use.target_tool = target->tool;
-    use.target_offset = target->edge;
-    out_.tools.push_back(use);
-    return &found_.emplace(key, *target).first->second;
-  }
-
-  /// The tool by itself: all keys of it name one.
+  /// The tool by itself; the word's own value after a finding.
   ExprId ToolValue(const Block& block, const Word& word, std::uint32_t tool) {
-    std::optional<TargetTool> target;
-    if (tool == 0) target = TargetTool{.words = "T0", .name = {}};  // empties the spindle on both
-    if (input_.config != nullptr) {
-      const std::string t = fmt::format("T{}", tool);
-      for (const dialects::WordMapping& mapping : input_.config->tools) {
-        if (mapping.source != t && !mapping.source.starts_with(t + " ")) continue;
-        const std::optional<TargetTool> here = ParseTarget(mapping.target);
-        if (!here) continue;
-        if (target && (target->tool != here->tool || target->name != here->name)) {
-          Refuse(block, word, fmt::format("{}, which [tools] maps to more than one tool,", t));
-          return word.value;
-        }
-        target = here;
-      }
-    }
-    if (!target) {
-      ok_ = false;
-      if (asked_.insert(fmt::format("T{}", tool)).second) {
-        sink_.Report(diag::Code::kUnmappedTool, module_.RangeOf(block, word), fmt::format("T{}", tool)).help =
-            fmt::format(
-                "add to ncport.toml, with the tool and edge of your machine:  [tools]  \"T{0} H{0}\" = \"T{0} D1\"",
-                tool);
-      }
-      return word.value;
-    }
-    const auto known = std::find_if(out_.tools.begin(), out_.tools.end(), [&](const ToolUse& use) {
-      return use.source_tool == tool && use.source_edge == 0;
-    });
-    if (known == out_.tools.end()) {
-      ToolUse use;
-      use.source_words = fmt::format("T{}", tool);
-      use.target_words =
-          target->name.empty() ? fmt::format("T{}", target->tool) : fmt::format("T=\"{}\"", target->name);
-      use.source_tool = tool;
-      use.target_name = target->name;
-      use.target_tool = target->tool;
-      out_.tools.push_back(use);
-    }
-    return target->name.empty() ? make_.Literal(target->tool, ir::Type::kInt) : make_.Text(target->name);
+    const std::optional<TargetTool> target = rows_.Alone(module_.RangeOf(block, word), tool);
+    return target ? ValueOf(*target) : word.value;
+  }
+  ExprId ValueOf(const TargetTool& target) {
+    return target.name.empty() ? make_.Literal(target.tool, ir::Type::kInt) : make_.Text(target.name);
   }
 
   /// Edge that stands for the registers in force; none after a finding.
@@ -323,12 +208,10 @@ class Pass {
       return std::nullopt;
     }
     const std::uint32_t radius = state.radius == kStale ? 0 : state.radius;
-    const TargetTool* target = Find(block, word, state.tool, state.length, radius);
+    const TargetTool* target = rows_.Find(module_.RangeOf(block, word), state.tool, state.length, radius);
     if (target == nullptr) return std::nullopt;
     return target->edge;
   }
-
-  // --- the text
 
   Word EdgeWord(std::uint32_t edge) { return ir::MakeWord(WordOp::kEdge, 0, make_.Literal(edge, ir::Type::kInt)); }
 
@@ -465,11 +348,12 @@ class Pass {
       // T0100 is the tool without its offset: any row of the tool names it.
       for (std::uint32_t i = 1; *number == 0 && mapping == nullptr && input_.config != nullptr && i < 100; ++i)
         mapping = input_.config->FindTool(text_of(i));
-      const TargetTool* target = Take(block, at, mapping, text_of(*number), {*station, *number, 0});
+      const TargetTool* target =
+          rows_.Take(module_.RangeOf(block, at), mapping, text_of(*number), {*station, *number, 0});
       if (target == nullptr) return;
       Word change = at;
       change.op = WordOp::kTool;
-      change.value = target->name.empty() ? make_.Literal(target->tool, ir::Type::kInt) : make_.Text(target->name);
+      change.value = ValueOf(*target);
       words.insert(words.begin(), {change, EdgeWord(*number == 0 ? 0 : target->edge)});
     }
     ProgramEditor(module_, {}, "map_tools").SetWords(block, words);
@@ -485,10 +369,7 @@ class Pass {
   const ir::analysis::ModalFlow& flow_;
   std::set<std::uint32_t> with_tools_, with_tools_below_;
   ir::analysis::ForwardFlow<Pass> selections_;
-  std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, TargetTool> found_;
-  std::map<std::uint32_t, std::pair<std::uint32_t, std::uint32_t>> fixed_;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> radius_of_;  // by tool and length; 0: none yet
-  std::set<std::string> asked_;
+  ToolRows rows_;
   bool ok_ = true;
 };
 

@@ -1,3 +1,4 @@
+// One class, one method a rule of the grammar: long, but each method writes the steps of its rule and nothing else.
 #include "frontend/sinumerik/compile.h"
 
 #include <vector>

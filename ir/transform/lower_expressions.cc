@@ -1,3 +1,5 @@
+// One walk over the words of a block: what lowers a value, a condition or a function puts statements into the same list
+// in front of it, in the order in which the source works them out.
 #include "ir/transform/lower_expressions.h"
 
 #include <fmt/format.h>
@@ -12,6 +14,7 @@
 #include "ir/comparison.h"
 #include "ir/make_word.h"
 #include "ir/transform/conditions.h"
+#include "ir/transform/is_integral.h"
 #include "ir/transform/new_local.h"
 #include "ir/transform/program_editor.h"
 
@@ -497,51 +500,6 @@ bool Lowering::Run() {
 }
 
 }  // namespace
-
-bool IsIntegral(const Module& module, ExprId id) {
-  const Expr& expr = module.exprs[id];
-  switch (expr.op) {
-    case ExprOp::kLiteral:
-      return expr.number == std::floor(expr.number);
-    case ExprOp::kVariable:
-    case ExprOp::kElement:
-      return expr.type == Type::kInt || expr.type == Type::kBool || expr.type == Type::kChar;
-    case ExprOp::kConvert:
-      return expr.type == Type::kInt || expr.type == Type::kBool || expr.type == Type::kChar ||
-             IsIntegral(module, ExprId{expr.a});
-    case ExprOp::kGroup:
-    case ExprOp::kNegate:
-    case ExprOp::kPlus:
-      return IsIntegral(module, ExprId{expr.a});
-    case ExprOp::kAdd:
-    case ExprOp::kSubtract:
-    case ExprOp::kMultiply:
-      return IsIntegral(module, ExprId{expr.a}) && IsIntegral(module, ExprId{expr.b});
-    case ExprOp::kDivideInteger:
-    case ExprOp::kBitAnd:
-    case ExprOp::kBitOr:
-    case ExprOp::kBitXor:
-    case ExprOp::kBitNot:
-      return true;
-    case ExprOp::kModulo:
-      return IsIntegral(module, ExprId{expr.a}) && IsIntegral(module, ExprId{expr.b});
-    case ExprOp::kFunction:
-      switch (static_cast<Function>(expr.a)) {
-        case Function::kTruncate:
-        case Function::kRound:
-        case Function::kRoundUp:
-        case Function::kRoundAway:
-          return true;
-        case Function::kAbs:
-        case Function::kSquare:
-          return IsIntegral(module, module.Item(expr.b));
-        default:
-          return false;
-      }
-    default:
-      return IsTruth(module, id);
-  }
-}
 
 bool LowerExpressions(Module& module, ProgramId program, const LowerExpressionsConfig& config, diag::Sink& sink) {
   return Lowering(module, program, config, sink).Run();

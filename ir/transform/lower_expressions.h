@@ -30,7 +30,4 @@ struct LowerExpressionsConfig {
 /// Changes one program. What has no form is a finding (NC6xxx) at its block; returns false then.
 bool LowerExpressions(Module& module, ProgramId program, const LowerExpressionsConfig& config, diag::Sink& sink);
 
-/// True when the value is a whole number whatever the run: rounding it changes nothing.
-bool IsIntegral(const Module& module, ExprId expr);
-
 }  // namespace ncport::ir::transform

@@ -1,3 +1,5 @@
+// One pass over the blocks in their order: marks, jumps, cases and repeated parts become jumps between the same places,
+// and a place gets its number when the first block behind it is known.
 #include "ir/transform/structure_to_jumps.h"
 
 #include <fmt/format.h>

@@ -42,14 +42,11 @@ Block AddedBlock(Module& module, ProgramEditor& editor, BlockId near, std::strin
 
 bool HoldsWords(const Module& module, BlockId id) { return !module.blocks[id].words.Empty(); }
 
-bool IsTool(const Module& module, const Translation& out, BlockId id) {
+/// The block brings a tool in.
+bool IsToolChange(const Module& module, BlockId id) {
   for (const ir::WordId word_id : module.blocks[id].words) {
     const Word& word = module.words[word_id];
-    if (word.op != WordOp::kInert || word.spelling == 0 || (word.flags & (Word::kAdded | Word::kKeepsTool)) != 0)
-      continue;
-    const std::string_view text = module.View(module.spellings[word.spelling].text);
-    if (std::any_of(out.tools.begin(), out.tools.end(), [&](const ToolUse& use) { return use.target_words == text; }))
-      return true;
+    if (IsToolCall(module, word) && (word.flags & (Word::kAdded | Word::kKeepsTool)) == 0) return true;
   }
   return false;
 }
@@ -308,7 +305,7 @@ bool FrameToolChanges(const RaiseInput& input, Translation& out, diag::Sink& sin
     ProgramEditor editor(module, program, "frame");
     bool first = module.programs[program].kind == ir::ProgramKind::kMain;
     for (const BlockId id : module.programs[program].blocks) {
-      if (!IsTool(module, out, id)) continue;
+      if (!IsToolChange(module, id)) continue;
       if (!std::exchange(first, false)) {
         for (const std::string& line : home) editor.InsertBefore(id, AddedBlock(module, editor, id, line));
         any = true;

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "backends/fanuc/references.h"
+#include "backends/fanuc/text_word.h"
 #include "dialects/fanuc/words.h"
 #include "ir/enum_names.h"
 #include "ir/transform/linear_form.h"
@@ -121,7 +122,7 @@ bool CheckLegal(const RaiseInput& input, Translation& out, diag::Sink& sink) {
           case WordOp::kInert:
             // Made by a pass of this target, or a word of the source that has no effect here: that one is not carried
             // over.
-            if (word.spelling != 0 && module.View(module.spellings[word.spelling].rule).empty()) break;
+            if (IsTextWord(module, word)) break;
             refuse(word, named());
             break;
           case WordOp::kAxis:

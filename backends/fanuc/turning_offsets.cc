@@ -90,13 +90,9 @@ Pass::Words Pass::Look(const Block& block) const {
   for (const WordId id : block.words) {
     const Word& word = module_.words[id];
     switch (word.op) {
-      case WordOp::kInert: {
-        if (word.spelling == 0) break;
-        const std::string_view text = module_.View(module_.spellings[word.spelling].text);
-        words.tool = words.tool || std::any_of(out_.tools.begin(), out_.tools.end(),
-                                               [&](const ToolUse& use) { return use.target_words == text; });
+      case WordOp::kInert:
+        words.tool = words.tool || IsToolCall(module_, word);
         break;
-      }
       case WordOp::kAxis:
         words.moves = true;
         words.moves_z = words.moves_z || word.index == kZ;

@@ -191,7 +191,7 @@ bool MapTurretTools(const RaiseInput& input, Translation& out, diag::Sink& sink)
       made.label = block.label;
       made.skip_level = block.skip_level;
       made.comments = block.comments;
-      Word text = TextWord(module, use.target_words);
+      Word text = TextWord(module, use.target_words, TextKind::kToolCall);
       if (keeps_tool) text.flags |= Word::kKeepsTool;
       editor.SetWords(made, {text});
       module.blocks[id].comments = {};

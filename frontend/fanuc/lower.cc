@@ -10,7 +10,7 @@ using ir::WordOp;
 namespace words = dialects::fanuc;
 
 Lowering::Lowering(ir::Module& module, const dialects::Profile& profile, words::System system, ReaderState& state)
-    : module_(module), profile_(profile), system_(system), state_(state), codes_(profile, system) {
+    : module_(module), texts_(module), profile_(profile), system_(system), state_(state), codes_(profile, system) {
   for (const std::string& axis : profile.axes) {
     const auto letter = ir::AxisOf(axis);
     if (!letter) continue;
@@ -18,13 +18,6 @@ Lowering::Lowering(ir::Module& module, const dialects::Profile& profile, words::
     axis_order_.push_back(*letter);
   }
   increments_ = profile.point.Or(dialects::PointRule::kIncrement) == dialects::PointRule::kIncrement;
-  for (std::uint32_t i = 1; i < module_.spellings.size(); ++i) {
-    const ir::Spelling& spelling = module_.spellings[i];
-    spellings_.emplace(std::uint64_t{spelling.text.value} << 32U | spelling.rule.value, static_cast<std::uint16_t>(i));
-  }
-  for (std::uint32_t i = 1; i < module_.literal_texts.size(); ++i) {
-    literal_texts_.emplace(module_.literal_texts[i].value, static_cast<std::uint16_t>(i));
-  }
   for (const ir::SystemId id : module_.systems.Ids()) systems_.emplace(module_.systems[id].number, id);
 }
 

@@ -14,6 +14,7 @@
 #include "dialects/profile.h"
 #include "frontend/common/line_error.h"
 #include "frontend/common/shape_cache.h"
+#include "frontend/common/text_tables.h"
 #include "frontend/common/token.h"
 #include "frontend/fanuc/code_index.h"
 #include "frontend/fanuc/reader_state.h"
@@ -121,7 +122,7 @@ class Lowering {
   [[nodiscard]] bool AxisExists(std::uint8_t axis) const { return axis < 16 && (axes_ >> axis & 1U) != 0; }
   ir::Word& AddWord(ir::WordOp op, const Pending& pending);
   ir::Word& AddWord(ir::WordOp op, std::uint32_t first, std::uint32_t last);
-  std::uint16_t SpellingOf(std::string_view text, std::string_view rule);
+  std::uint16_t SpellingOf(std::string_view text, std::string_view rule) { return texts_.SpellingOf(text, rule); }
 
   // Calls (lower_calls.cc).
   bool MacroCall(const Context& context);
@@ -141,6 +142,7 @@ class Lowering {
   bool Fail(diag::Code code, const Pending& pending, const char* help = nullptr, const char* detail = nullptr);
 
   ir::Module& module_;
+  TextTables texts_;
   const dialects::Profile& profile_;
   const dialects::fanuc::System system_;
   ReaderState& state_;
@@ -166,9 +168,7 @@ class Lowering {
   bool skips_ = false;                // an inner skip mark stands in the block
 
   // Caches over all blocks: numbers of the module's records.
-  std::unordered_map<std::uint64_t, std::uint16_t> spellings_;      // text and rule
-  std::unordered_map<std::uint32_t, std::uint16_t> literal_texts_;  // StringId -> index
-  std::unordered_map<std::uint32_t, ir::SystemId> systems_;         // by number
+  std::unordered_map<std::uint32_t, ir::SystemId> systems_;  // by number
 };
 
 }  // namespace ncport::frontend::fanuc

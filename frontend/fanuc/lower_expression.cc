@@ -38,12 +38,7 @@ ExprId Lowering::Literal(const Token& token) {
   expr.type = Type::kReal;
   expr.format = token.format;
   expr.number = token.number;
-  if ((token.format.flags & ir::NumberFormat::kAsText) != 0) {
-    const auto [it, added] =
-        literal_texts_.emplace(token.data, static_cast<std::uint16_t>(module_.literal_texts.size()));
-    if (added && module_.literal_texts.size() < 0xFFFF) module_.literal_texts.push_back(token.Text());
-    expr.count = it->second;
-  }
+  if ((token.format.flags & ir::NumberFormat::kAsText) != 0) expr.count = texts_.LiteralText(token.Text());
   return module_.LastExpr();
 }
 

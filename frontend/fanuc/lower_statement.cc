@@ -20,19 +20,6 @@ Word& Lowering::AddWord(WordOp op, std::uint32_t first, std::uint32_t last) {
   return word;
 }
 
-std::uint16_t Lowering::SpellingOf(std::string_view text, std::string_view rule) {
-  const StringId text_id = module_.strings.Intern(text);
-  const StringId rule_id = module_.strings.Intern(rule);
-  const std::uint64_t key = std::uint64_t{text_id.value} << 32U | rule_id.value;
-  const auto found = spellings_.find(key);
-  if (found != spellings_.end()) return found->second;
-  if (module_.spellings.size() > 0xFFFF) return 0;
-  const auto index = static_cast<std::uint16_t>(module_.spellings.size());
-  module_.spellings.push_back({text_id, rule_id});
-  spellings_.emplace(key, index);
-  return index;
-}
-
 bool Lowering::DoStatement(const Action& action) {
   const Token& token = At(action.first);
   switch (static_cast<Step>(action.op)) {

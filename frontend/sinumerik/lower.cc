@@ -8,14 +8,7 @@ namespace ncport::frontend::sinumerik {
 using ir::WordOp;
 
 Lowering::Lowering(ir::Module& module, const dialects::Profile& profile, ReaderState& state)
-    : module_(module), profile_(profile), state_(state) {
-  for (std::uint32_t i = 1; i < module_.spellings.size(); ++i) {
-    const ir::Spelling& spelling = module_.spellings[i];
-    spellings_.emplace(std::uint64_t{spelling.text.value} << 32U | spelling.rule.value, static_cast<std::uint16_t>(i));
-  }
-  for (std::uint32_t i = 1; i < module_.literal_texts.size(); ++i) {
-    literal_texts_.emplace(module_.literal_texts[i].value, static_cast<std::uint16_t>(i));
-  }
+    : module_(module), texts_(module), profile_(profile), state_(state) {
   for (const ir::SystemId id : module_.systems.Ids()) systems_.emplace(module_.systems[id].name.value, id);
   code_spellings_.resize(dialects::sinumerik::Codes().Rows().size());
   address_spellings_.resize(dialects::sinumerik::Addresses().size());

@@ -12,6 +12,7 @@
 #include "dialects/sinumerik/words.h"
 #include "frontend/common/line_error.h"
 #include "frontend/common/shape_cache.h"
+#include "frontend/common/text_tables.h"
 #include "frontend/common/token.h"
 #include "frontend/sinumerik/reader_state.h"
 #include "frontend/sinumerik/recipe.h"
@@ -70,7 +71,7 @@ class Lowering {
   bool OnceAxis(std::uint8_t axis, const Token& token);
   bool OnceAddress(std::uint32_t row, const Token& token);
   bool TakeMode(ir::Word& word, std::uint8_t allowed);
-  std::uint16_t SpellingOf(std::string_view text, std::string_view rule);
+  std::uint16_t SpellingOf(std::string_view text, std::string_view rule) { return texts_.SpellingOf(text, rule); }
   std::uint16_t CodeSpelling(std::uint32_t row);
   std::uint16_t AddressSpelling(std::uint32_t row);
 
@@ -100,6 +101,7 @@ class Lowering {
   bool Fail(diag::Code code, const Token& token, const char* help = nullptr, const char* detail = nullptr);
 
   ir::Module& module_;
+  TextTables texts_;
   const dialects::Profile& profile_;
   ReaderState& state_;
   LineError error_;
@@ -140,9 +142,7 @@ class Lowering {
   // Caches over all blocks: numbers of the module's records.
   std::vector<std::uint16_t> code_spellings_;
   std::vector<std::uint16_t> address_spellings_;
-  std::unordered_map<std::uint64_t, std::uint16_t> spellings_;      // text and rule
-  std::unordered_map<std::uint32_t, std::uint16_t> literal_texts_;  // StringId -> index
-  std::unordered_map<std::uint32_t, ir::SystemId> systems_;         // StringId of the name in upper case
+  std::unordered_map<std::uint32_t, ir::SystemId> systems_;  // StringId of the name in upper case
   ir::SpaceId spaces_[2];
 };
 

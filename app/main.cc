@@ -55,6 +55,9 @@ bool IsFolder(const std::string& path) {
   return ::stat(path.c_str(), &info) == 0 && S_ISDIR(info.st_mode);
 }
 
+/// `out/`: a path that ends like a folder and is not there becomes one; what leads there must be there.
+bool MakeFolder(const std::string& path) { return path.ends_with('/') && ::mkdir(path.c_str(), 0777) == 0; }
+
 /// Findings about the command line, profiles and configuration: the programs are not to blame.
 bool IsUsage(diag::Code code) {
   using diag::Code;
@@ -406,7 +409,7 @@ int RunTranslate(const TranslateArguments& arguments) {
   const int code = session.End(ok);
   if (!result.summary.empty() && !arguments.quiet) fmt::print(stderr, "{}", result.summary);
   if (result.files.empty() || code == kUsage) return code == kDone ? kFindings : code;
-  const bool folder = IsFolder(arguments.output);
+  const bool folder = IsFolder(arguments.output) || MakeFolder(arguments.output);
   const bool named = result.files.size() > 1 || !result.files.front().name.empty();
   if (named && !folder) {
     Say("on this machine the file name is the program: -o must name a folder");

@@ -24,6 +24,9 @@ bool ExplainJumpWithZeros(std::string_view line, LineError& error, std::string& 
 /// A character or word that the tokens do not know.
 void ExplainWord(std::string_view line, LineError& error, std::string& help);
 
+/// `$P_UIFR[1,X,TX]`: a part of a settable frame that does not exist.
+void ExplainFramePart(std::string_view line, LineError& error, std::string& help);
+
 /// `FINISH CUT`: a block of words alone, at least two of three letters, is a comment whose sign is missing.
 void ExplainComment(std::span<const Token> tokens, std::string_view line, LineError& error, std::string& help);
 

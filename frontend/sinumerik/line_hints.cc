@@ -79,6 +79,35 @@ void ExplainFrameSign(std::string_view line, std::uint32_t word, LineError& erro
   }
 }
 
+void ExplainFramePart(std::string_view line, LineError& error, std::string& help) {
+  // Card 3.2: parts of a frame; 8.7: the settable ones by their number.
+  constexpr std::string_view kSettable = "$P_UIFR[";
+  constexpr std::string_view kParts[] = {"TR", "FI", "RT", "SC", "MI"};
+  line = line.substr(0, line.find(';'));
+  for (std::size_t at = 0; at + kSettable.size() < line.size(); ++at) {
+    if (!IsWord(line.substr(at, kSettable.size()), kSettable)) continue;
+    const std::size_t close = line.find(']', at);
+    if (close == std::string_view::npos) return;
+    const std::string_view inside = line.substr(at + kSettable.size(), close - at - kSettable.size());
+    const std::size_t first = inside.find(','),
+                      second = inside.find(',', first == std::string_view::npos ? first : first + 1);
+    if (second == std::string_view::npos) continue;
+    const std::size_t begin = inside.find_first_not_of(" \t", second + 1);
+    if (begin == std::string_view::npos) continue;
+    std::size_t end = begin;
+    while (end < inside.size() && IsNameSign(inside[end])) ++end;
+    const std::string_view part = inside.substr(begin, end - begin);
+    const bool known = std::ranges::any_of(kParts, [&](std::string_view name) { return IsWord(part, name); });
+    if (known || part.empty()) continue;
+    error = {.code = Code::kUnknownWord,
+             .begin = static_cast<std::uint32_t>(at + kSettable.size() + begin),
+             .length = static_cast<std::uint32_t>(part.size())};
+    help = "the parts of a frame are TR, FI, RT, SC and MI";
+    error.help = help.c_str();
+    return;
+  }
+}
+
 void ExplainComment(std::span<const Token> tokens, std::string_view line, LineError& error, std::string& help) {
   // Of words that open a block of their own the rest is judged, not the whole.
   const auto opening = tokens.empty() ? TokenKind::kNone : static_cast<TokenKind>(tokens.front().kind);

@@ -235,6 +235,7 @@ class Reader {
                 .length = refused->length};
       ExplainRefused(text.substr(refused->offset, refused->length));
       ExplainFrameSign(text, refused->offset, error_, help_);
+      ExplainFramePart(text, error_, help_);
       return &error_;
     }
     const Recipe& recipe = recipes_.Of(tokens);

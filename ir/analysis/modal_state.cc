@@ -1,3 +1,5 @@
+// One flow with two walks, of what programs do to any caller and of what holds in them: a little long, since both share
+// the steps through words and calls.
 #include "ir/analysis/modal_state.h"
 
 #include <algorithm>

@@ -1,15 +1,44 @@
 #include "ir/transform/resolve_increments.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "ir/analysis/flow_analyses.h"
+#include "ir/analysis/forward_flow.h"
 #include "ir/builder.h"
 #include "ir/length_units.h"
+#include "ir/transform/drilling_flow.h"
 
 namespace ncport::ir::transform {
 
 namespace {
+
+/// Whether a drilling cycle is in force: under one K is a count of holes, elsewhere a centre (fanuc-8.7).
+struct HoleFlow {
+  using State = std::uint8_t;
+  static constexpr State kNone = 1, kHole = 2;
+
+  const Module& module;
+
+  [[nodiscard]] State Entry(ProgramId) const { return kNone; }
+  [[nodiscard]] State Unknown(ProgramId) const { return kNone | kHole; }
+  bool Join(BlockId, State& into, State from) const {
+    const State old = into;
+    into |= from;
+    return into != old;
+  }
+  void Transfer(ProgramId, BlockId block, State& state) const {
+    for (const WordId id : module.blocks[block].words) {
+      const Word& word = module.words[id];
+      if (word.op == WordOp::kMotion) state = kNone;
+    }
+    for (const WordId id : module.blocks[block].words) {
+      const Word& word = module.words[id];
+      if (word.op == WordOp::kCycle) state = IsHole(word.index) ? kHole : kNone;
+    }
+  }
+};
 
 /// Milliseconds, thousandths of a degree or of a factor: they do not depend on any mode.
 constexpr double kThousandth = 0.001;
@@ -22,9 +51,13 @@ class Pass {
         sink_(sink),
         make_(module),
         analyses_(module, source, {source.start, sub_entry}),
-        flow_(analyses_.Modal()) {}
+        flow_(analyses_.Modal()),
+        hole_flow_{module},
+        holes_(analyses_.Sources(), hole_flow_) {}
 
   bool Run() {
+    const auto is_cycle = [](const Word& word) { return word.op == WordOp::kCycle; };
+    if (std::ranges::any_of(module_.words.All(), is_cycle)) holes_.Run();
     for (const ProgramId program : module_.programs.Ids()) {
       for (const BlockId block : module_.programs[program].blocks) {
         state_ = flow_.At(program, block);
@@ -42,12 +75,34 @@ class Pass {
       for (const ArgId arg : module_.calls[word.Extra<CallId>()].args) ResolveArgument(block, word, arg);
       return;
     }
+    if (word.op == WordOp::kCenter && word.index == 2 && CountsHoles(block, word)) {
+      word.op = WordOp::kCycleValue;
+      word.index = static_cast<std::uint8_t>(CycleField::kRepeats);
+      word.flags = static_cast<std::uint8_t>(word.flags & ~Word::kIncrements);
+      module_.words[id] = word;
+      return;
+    }
     if ((word.flags & Word::kIncrements) == 0) return;
     const std::optional<double> unit = UnitOf(block, word);
     if (!unit) return;
     word.value = Scaled(word.value, *unit);
     word.flags = static_cast<std::uint8_t>(word.flags & ~Word::kIncrements);
     module_.words[id] = word;
+  }
+
+  /// K of a block that names neither a cycle nor a motion.
+  bool CountsHoles(BlockId block, const Word& k) {
+    const HoleFlow::State* before = holes_.Before(block);
+    if (before == nullptr || *before == HoleFlow::kNone) return false;
+    for (const WordId id : module_.blocks[block].words) {
+      const WordOp op = module_.words[id].op;
+      if (op == WordOp::kMotion || op == WordOp::kCycle) return false;
+    }
+    if (*before == HoleFlow::kHole) return true;
+    ok_ = false;
+    sink_.Report(diag::Code::kUnknownModalState, module_.RangeOf(module_.blocks[block], k),
+                 "whether a drilling cycle is in force", "K counts its holes under one and is a centre elsewhere");
+    return false;
   }
 
   void ResolveArgument(BlockId block, const Word& word, ArgId id) {
@@ -149,6 +204,8 @@ class Pass {
   ExprBuilder make_;
   analysis::FlowAnalyses analyses_;
   const analysis::ModalFlow& flow_;
+  HoleFlow hole_flow_;
+  analysis::ForwardFlow<HoleFlow> holes_;
   ModalState state_;
   bool ok_ = true;
 };

@@ -68,7 +68,9 @@ Value Evaluator::EvalTextFunction(const Expr& expr) {
   const auto position = [](std::int64_t index) { return Value::Int(static_cast<double>(index)); };
   // A CHAR argument may come as a text of one character.
   const auto character = [&](const Value& value) -> std::uint32_t {
-    if (!value.IsText()) return static_cast<std::uint32_t>(value.number);
+    constexpr std::uint32_t kNoCharacter = 0xFFFFFFFFU;
+    if (!value.IsText())
+      return value.number >= 0 && value.number < kNoCharacter ? static_cast<std::uint32_t>(value.number) : kNoCharacter;
     const std::string_view view = texts_.View(value);
     return view.empty() ? 0 : ops::CharacterAt(view, 0).code;
   };

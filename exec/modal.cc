@@ -88,6 +88,10 @@ void Kinematics::Set(const ir::Word& word, double extension, BlockWork& work) {
       break;
     case WordOp::kWorkOffset: {
       const bool extended = extension >= 0;
+      if (extension > 0xFFFF) {
+        session_.Alarm(ir::AlarmClass::kRange, "number of a work offset");
+        break;
+      }
       SetWorkOffset({true, static_cast<std::uint16_t>(word.extra == Id<void>::kNone ? 0 : word.extra),
                      static_cast<std::uint16_t>(extended ? extension : 0)});
       break;

@@ -134,6 +134,10 @@ void Kinematics::ReferenceMove(const BlockWork& work) {
     emitter_.Send(via);
     std::memcpy(from_, channel_.base, sizeof from_);
   }
+  if (work.Has(BlockWork::kPoint) && work.point > 0xFFFF) {
+    session_.Alarm(ir::AlarmClass::kRange, "number of a reference point");
+    return;
+  }
   Event& event = emitter_.BeginMotion(EventKind::kReference, from_);
   event.moved_axes = work.axes;
   event.number = static_cast<std::uint32_t>(work.reference);

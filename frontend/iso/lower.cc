@@ -169,7 +169,8 @@ bool Lowering::AddTool(const Action& action) {
     Add(WordOp::kTool, action, Literal(token));
     return true;
   }
-  if (token.digits > 4) return Fail(Code::kOutOfRange, token);
+  // Of very long numbers the digits are not counted.
+  if (token.digits > 4 || token.number > 9999) return Fail(Code::kOutOfRange, token);
   const auto number = static_cast<std::uint32_t>(token.number);
   const ir::ExprId tool = Whole(number / 100, token);
   Add(WordOp::kTool, action, tool);

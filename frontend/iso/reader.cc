@@ -59,6 +59,8 @@ class Reader {
     return dot == std::string_view::npos || dot == 0 ? name : name.substr(0, dot);
   }
 
+  static constexpr double kMostNumber = 999999999;  // of a block; digits are counted for short numbers only
+
   void ReadLine(std::string_view text, std::uint32_t line) {
     if (TrimEnd(text) == "%") {
       blocks_.AddFileMark(line, "%", "iso-1");
@@ -69,7 +71,7 @@ class Reader {
     if (options_.tokens != nullptr) options_.tokens->OnTokens(file_, line, text, source_.Tokens(), kTokenNames);
     block.indent = static_cast<std::uint16_t>(std::min<std::uint32_t>(source_.Indent(), 0xFFFF));
     const std::span<const Token> tokens = source_.Tokens();
-    if (!tokens.empty() && static_cast<K>(tokens[0].kind) == K::kBlockNumber && tokens[0].digits <= 9) {
+    if (!tokens.empty() && static_cast<K>(tokens[0].kind) == K::kBlockNumber && tokens[0].number <= kMostNumber) {
       block.number = static_cast<std::uint32_t>(tokens[0].number);
       block.number_digits = tokens[0].digits;
     }

@@ -1,5 +1,6 @@
 #include "ir/transform/expand_cycles.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -99,8 +100,15 @@ class Pass {
     const bool open = before.cycle == Drilling::kOpen || before.cycle == Drilling::kCallers;
     const DrillingWords parts = drilling_.WordsOf(id, normal, IsHole(before.cycle));
     bool moves = false, says = false;
+    const bool ends = parts.motion || parts.cycle == Drilling::kNoCycle;
+    const bool under = (IsHole(before.cycle) || before.cycle == Drilling::kOpen) && !ends;
+    if (under && flow_.Before(program_, id).units != at.units)
+      return Refuse(block, "a change of the unit while a drilling cycle is in force");
     for (const WordId word_id : block.words) {
       const Word& word = module_.words[word_id];
+      if ((under || IsHole(parts.cycle)) && word.op == WordOp::kWorkOffset && at.return_level != ReturnLevel::kRPlane &&
+          flow_.Before(program_, id).work_offset != at.work_offset)
+        return Refuse(block, "a change of the work offset in a cycle that goes back to its start level");
       moves = moves || word.op == WordOp::kAxis;
       says = says || IsHoleWord(word);
       const bool call = word.op == WordOp::kCall || word.op == WordOp::kModalCall;
@@ -188,6 +196,12 @@ class Pass {
       module_.blocks[id].number = Block::kNoNumber;
       editor.Remove(id);
     };
+    // The level at which the cycle begins is read in the unit of the block.
+    const bool settles = std::ranges::any_of(first, [](const Word& word) { return word.op == WordOp::kUnits; });
+    if (settles && !assigns.empty()) {
+      put(first);
+      first.clear();
+    }
     for (const auto& [local, value] : assigns) {
       const ExprId now = value.Valid() ? value : make_.System(config_.position, {make_.AxisName(normal)});
       put({MakeAssignment(local, now)});

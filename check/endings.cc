@@ -1,5 +1,6 @@
 #include "check/endings.h"
 
+#include "ir/never_alarms.h"
 #include "ir/word_values.h"
 
 namespace ncport::check {
@@ -7,42 +8,10 @@ namespace ncport::check {
 namespace {
 
 using ir::ExprId;
-using ir::ExprOp;
 using ir::WordOp;
 
-bool MayAlarm(const ir::Module& module, ExprId id) {
-  const ir::Expr& expr = module.exprs[id];
-  switch (expr.op) {
-    case ExprOp::kLiteral:
-    case ExprOp::kText:
-    case ExprOp::kVariable:
-    case ExprOp::kCell:
-    case ExprOp::kAxisName:
-      return false;
-    case ExprOp::kGroup:
-    case ExprOp::kConvert:
-    case ExprOp::kPlus:
-    case ExprOp::kNegate:
-    case ExprOp::kNot:
-      return MayAlarm(module, ExprId{std::size_t{expr.a}});
-    case ExprOp::kAdd:
-    case ExprOp::kSubtract:
-    case ExprOp::kMultiply:
-    case ExprOp::kEqual:
-    case ExprOp::kNotEqual:
-    case ExprOp::kLess:
-    case ExprOp::kLessEqual:
-    case ExprOp::kGreater:
-    case ExprOp::kGreaterEqual:
-    case ExprOp::kAnd:
-    case ExprOp::kOr:
-    case ExprOp::kXor:
-    case ExprOp::kConcat:
-      return MayAlarm(module, ExprId{std::size_t{expr.a}}) || MayAlarm(module, ExprId{std::size_t{expr.b}});
-    default:
-      return true;
-  }
-}
+// Texts are only printed here; a loop that ends where a number leaves the range of its type was not meant to.
+constexpr ir::ExprOp kAlso[] = {ir::ExprOp::kConvert, ir::ExprOp::kText, ir::ExprOp::kConcat};
 
 bool MayEnd(const ir::Module& module, const ir::Word& word) {
   switch (word.op) {
@@ -57,7 +26,7 @@ bool MayEnd(const ir::Module& module, const ir::Word& word) {
       break;
   }
   bool may = false;
-  ir::VisitValues(module, word, [&](ExprId value) { may = may || MayAlarm(module, value); });
+  ir::VisitValues(module, word, [&](ExprId value) { may = may || !ir::NeverAlarms(module, value, kAlso); });
   return may;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "ir/never_alarms.h"
 #include "ir/ops/arithmetic.h"
 #include "ir/ops/convert.h"
 #include "ir/ops/functions.h"
@@ -16,38 +17,6 @@ namespace {
 constexpr bool IsWhole(Type type) { return type == Type::kInt || type == Type::kBool || type == Type::kChar; }
 
 constexpr ConstantValue Truth(bool value) { return {Type::kBool, value ? 1.0 : 0.0}; }
-
-/// Working it out has no effect and ends in no alarm: no division, function, conversion or read of the machine.
-bool IsQuiet(const Module& module, ExprId id) {
-  const Expr& expr = module.exprs[id];
-  switch (expr.op) {
-    case ExprOp::kLiteral:
-    case ExprOp::kVariable:
-    case ExprOp::kCell:
-    case ExprOp::kAxisName:
-      return true;
-    case ExprOp::kGroup:
-    case ExprOp::kPlus:
-    case ExprOp::kNegate:
-    case ExprOp::kNot:
-      return IsQuiet(module, ExprId{expr.a});
-    case ExprOp::kAdd:
-    case ExprOp::kSubtract:
-    case ExprOp::kMultiply:
-    case ExprOp::kEqual:
-    case ExprOp::kNotEqual:
-    case ExprOp::kLess:
-    case ExprOp::kLessEqual:
-    case ExprOp::kGreater:
-    case ExprOp::kGreaterEqual:
-    case ExprOp::kAnd:
-    case ExprOp::kOr:
-    case ExprOp::kXor:
-      return IsQuiet(module, ExprId{expr.a}) && IsQuiet(module, ExprId{expr.b});
-    default:
-      return false;
-  }
-}
 
 }  // namespace
 
@@ -181,7 +150,7 @@ std::optional<ConstantValue> ConstantValues::Value(BlockId block, const Constant
         const auto& side = left ? a : b;
         const std::uint32_t other = left ? expr.b : expr.a;
         const bool decides = side && side->type != Type::kAxis && (side->number != 0) == either;
-        if (decides && ((a && b) || IsQuiet(module_, ExprId{other}))) return Truth(either);
+        if (decides && ((a && b) || NeverAlarms(module_, ExprId{other}))) return Truth(either);
       }
       return a && b ? std::optional(Truth(!either)) : std::nullopt;
     }

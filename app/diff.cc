@@ -35,10 +35,7 @@ Status RunSide(Context& context, const Input& input, const std::string& from, co
   NCPORT_TRY(app::ReadSet(context, {input}, settings, app::ProfileNeed::kGuess, side.set));
   NCPORT_TRY_ASSIGN(const exec::RunOptions run, app::RunOptionsFor(context, side.set, settings));
   side.machine = dialects::MachineFor(side.set.profile);
-  // A start offset of the profile would hide the word that selects it: on either side it is what the operator left. So
-  // it is with the path mode.
-  side.machine.start.work_offset = {};
-  side.machine.start.path = ir::PathMode::kUnknown;
+  prove::LeaveToOperator(side.machine.start);
   app::MarkAddedBlocks(side.set.module, side.set.profile.language);
   const exec::Linked linked(side.set.module, side.machine);
   exec::NoEnvironment environment;

@@ -74,7 +74,7 @@ void CheckFrameArcs(const Subject& subject, diag::Sink& sink) {
       const ir::Word* arc = ArcWord(module, block, modes.motion);
       const auto axes = AxesOf(modes.plane);
       if (arc == nullptr || !axes) continue;
-      const FrameState frame = frames.Before(program, id);
+      const FrameState frame = frames.Before(id);
       if (frame.kind != FrameState::Kind::kKnown) continue;
       const auto [a, b] = FactorsOf(frame.matrix, (*axes)[0], (*axes)[1]);
       if (std::fabs(a - b) <= kSame * std::fmax(a, b)) continue;

@@ -7,6 +7,11 @@
 
 namespace ncport::prove {
 
+void LeaveToOperator(ir::ModalState& start) {
+  start.work_offset = {};
+  start.path = ir::PathMode::kUnknown;
+}
+
 using exec::Event;
 using exec::EventKind;
 

@@ -12,6 +12,10 @@
 
 namespace ncport::prove {
 
+/// Takes the work offset and the path mode out of what a machine starts with: on either side they are what the operator
+/// left, and a start value of the profile would hide the word that selects it.
+void LeaveToOperator(ir::ModalState& start);
+
 /// How exact the words of one side are.
 struct Precision {
   ir::WordError word_error = ir::WordError::kNone;

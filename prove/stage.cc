@@ -28,10 +28,7 @@ void Promise(const ir::ModalState& entry, ir::ModalState& start) {
 
 Stage::Stage(const Side& side, const std::vector<BoundInput>& inputs, bool source)
     : module_(*side.module), machine_(*side.machine), entry_(side.entry_state) {
-  // A start offset of the profile would hide the word that selects it: on either side it is what the operator left. So
-  // it is with the path mode.
-  machine_.start.work_offset = {};
-  machine_.start.path = ir::PathMode::kUnknown;
+  LeaveToOperator(machine_.start);
   if (side.is_call) Promise(entry_, machine_.start);
   clean_start_ = machine_.start;
   clean_position_known_ = machine_.position_known;

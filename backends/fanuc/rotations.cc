@@ -117,7 +117,7 @@ bool RotationsAreNative(const RaiseInput& input, const Translation& out) {
   for (const ProgramId program : module.programs.Ids()) {
     for (const BlockId id : module.programs[program].blocks) {
       const Block& block = module.blocks[id];
-      const FrameState before = flows.frames.Before(program, id);
+      const FrameState before = flows.frames.Before(id);
       const ir::ModalState state = flows.modes.At(program, id);
       if (const Word* frame = ir::FindWord(module, block, WordOp::kFrame)) {
         const FrameOp op = OpOf(*frame);
@@ -202,7 +202,7 @@ void RotationsToNative(const RaiseInput& input, Translation& out) {
   bool head = true;
   for (const BlockId id : module.programs[holder].blocks) {
     const Block block = module.blocks[id];
-    const FrameState before = flows.frames.Before(holder, id);
+    const FrameState before = flows.frames.Before(id);
     // What goes in front of the block, one block each.
     std::vector<std::vector<Word>> pieces;
     if (head && !block.words.Empty()) {

@@ -314,7 +314,7 @@ Slots DimensionPass::EntrySlots() {
   for (Slot axis = 0; axis < kMaxAxes; ++axis) {
     if (passes_[program_.value] >> axis & 1U) slots[axis] = {SlotValue::Kind::kKnown, FormOf(module_, CellAt(axis))};
   }
-  const bool framed = blocks_.count != 0 && !frames_.Before(program_, blocks_[0]).untouched;
+  const bool framed = blocks_.count != 0 && !frames_.Before(blocks_[0]).untouched;
   for (std::uint8_t axis = 0; axis < 3 && !framed; ++axis) slots[kShift + axis] = {SlotValue::Kind::kKnown, {}};
   return slots;
 }

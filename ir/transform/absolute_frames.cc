@@ -75,7 +75,7 @@ bool DimensionPass::UsesForFrame(BlockId id, Slot slot) const {
   const bool shift = slot >= kShift;
   if (!shift && slot >= 3) return false;
   const SlotMask moved = MovedLinear(id);
-  const FrameState state = frames_.Before(program_, id);
+  const FrameState state = frames_.Before(id);
   if (moved == 0 || state.untouched || state.kind != FrameState::Kind::kKnown) return false;
   if (!shift && WordOf(id, WordOp::kRadius) != nullptr && !KeepsDecimals(state.matrix)) return true;
   if (state.matrix.IsDiagonal()) return shift && ((moved >> (slot - kShift)) & 1U) != 0;
@@ -94,8 +94,7 @@ SlotMask DimensionPass::LiveThroughFrame(BlockId id, SlotMask behind) const {
   if (frame == nullptr) return 0;
   SlotMask live = 0;
   if ((behind & kLinearSlots) != 0) {
-    const bool diagonal =
-        frames_.Before(program_, id).matrix.IsDiagonal() && frames_.After(program_, id).matrix.IsDiagonal();
+    const bool diagonal = frames_.Before(id).matrix.IsDiagonal() && frames_.After(program_, id).matrix.IsDiagonal();
     live |= (diagonal ? behind & kLinearSlots : kLinearSlots) | kShiftSlots;
   }
   if ((behind & kShiftSlots) != 0 && ShiftStep(id, kShift) == Step::kComputed &&
@@ -107,12 +106,12 @@ SlotMask DimensionPass::LiveThroughFrame(BlockId id, SlotMask behind) const {
 bool DimensionPass::LosesUnderFrame(BlockId id, std::uint8_t axis) const {
   if (!frames_.Any() || axis >= 3) return false;
   if (WordOf(id, WordOp::kMachineCoords) == nullptr && WordOf(id, WordOp::kReference) == nullptr) return false;
-  const FrameState state = frames_.Before(program_, id);
+  const FrameState state = frames_.Before(id);
   return state.kind == FrameState::Kind::kUnknown || !state.matrix.IsDiagonal();
 }
 
 std::optional<LinearForm> DimensionPass::ShiftBefore(BlockId id, std::uint8_t axis, const Slots& in) const {
-  if (frames_.Before(program_, id).untouched) return LinearForm{};
+  if (frames_.Before(id).untouched) return LinearForm{};
   if (!in[kShift + axis].Known()) return std::nullopt;
   return in[kShift + axis].form;
 }
@@ -124,7 +123,7 @@ std::optional<LinearForm> DimensionPass::NewShift(BlockId id, std::uint8_t axis,
     return adds ? ShiftBefore(id, axis, in) : LinearForm{};
   }
   const ModalState state = flow_.At(program_, id);
-  const FrameState before = frames_.Before(program_, id);
+  const FrameState before = frames_.Before(id);
   LinearForm shift;
   if (op == FrameOp::kAddTranslate) {
     const std::optional<LinearForm> old = ShiftBefore(id, axis, in);
@@ -147,7 +146,7 @@ std::optional<LinearForm> DimensionPass::NewShift(BlockId id, std::uint8_t axis,
 
 /// No axis moves when the frame changes: the same point has other coordinates.
 std::optional<LinearForm> DimensionPass::SeenFromNewFrame(BlockId id, std::uint8_t axis, const Slots& in) {
-  const FrameState before = frames_.Before(program_, id);
+  const FrameState before = frames_.Before(id);
   const FrameState after = frames_.After(program_, id);
   if (before.kind != FrameState::Kind::kKnown || after.kind != FrameState::Kind::kKnown) return std::nullopt;
   const std::optional<FrameMatrix> inverse = after.matrix.Inverse();
@@ -175,7 +174,7 @@ void DimensionPass::FindSenses() {
   names_senses_ = false;
   if (!config_.work_frames_in || !frames_.Any()) return;
   for (const BlockId id : blocks_)
-    names_senses_ = names_senses_ || Mirrored(frames_.Before(program_, id), flow_.At(program_, id).plane);
+    names_senses_ = names_senses_ || Mirrored(frames_.Before(id), flow_.At(program_, id).plane);
 }
 
 /// The frame is in the coordinates of what follows.
@@ -187,7 +186,7 @@ void DimensionPass::RemoveFrame(BlockId id) {
     return;
   }
   const ModalState state = flow_.At(program_, id);
-  const FrameState before = frames_.Before(program_, id), after = frames_.After(program_, id);
+  const FrameState before = frames_.Before(id), after = frames_.After(program_, id);
   if (state.comp != CutterComp::kOff &&
       (before.kind == FrameState::Kind::kUnknown || Mirrored(before, state.plane) != Mirrored(after, state.plane))) {
     Refuse(id, frame, "a mirror of the frame while cutter compensation may be on");
@@ -300,7 +299,7 @@ void DimensionPass::FramedCenters(const FrameMatrix& matrix, std::uint8_t first,
 
 /// The words of a block, absolute and in the system of the program, as the frame in force makes them.
 bool DimensionPass::ApplyFrame(BlockId id, const Slots& in, std::vector<Word>& words) {
-  const FrameState frame = frames_.Before(program_, id);
+  const FrameState frame = frames_.Before(id);
   if (frame.kind == FrameState::Kind::kNoWay) return true;
   const ModalState state = flow_.At(program_, id);
   Motion motion = state.motion;

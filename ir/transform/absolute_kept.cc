@@ -146,7 +146,7 @@ SlotMask DimensionPass::KeptOf(ProgramId program, BlockId id, SlotMask settled) 
   const bool cut = AnyWord(module_, block,
                            [](const Word& word) { return word.op == WordOp::kWhen || word.op == WordOp::kSkipRest; });
   if (blocks && cut) return 0;
-  if (frames_.Any() && !frames_.Before(program, id).untouched) return 0;
+  if (frames_.Any() && !frames_.Before(id).untouched) return 0;
   SlotMask kept = 0;
   bool all = true;
   for (const WordId word_id : block.words) {

@@ -248,20 +248,20 @@ FrameState FrameFlow::Apply(ProgramId program, BlockId block, FrameState state, 
   return state;
 }
 
-FrameState FrameFlow::Before(ProgramId /*program*/, BlockId block) const {
+FrameState FrameFlow::Before(BlockId block) const {
   if (!any_) return {FrameState::Kind::kKnown, true, {}};
   return in_[block.value];
 }
 
 FrameState FrameFlow::After(ProgramId program, BlockId block) const {
-  const FrameState before = Before(program, block);
+  const FrameState before = Before(block);
   if (!any_ || FrameWord(block) == nullptr) return before;
   return Apply(program, block, before, nullptr);
 }
 
 std::string_view FrameFlow::Trouble(ProgramId program, BlockId block) const {
   std::string_view trouble;
-  if (any_ && FrameWord(block) != nullptr) Apply(program, block, Before(program, block), &trouble);
+  if (any_ && FrameWord(block) != nullptr) Apply(program, block, Before(block), &trouble);
   return trouble;
 }
 

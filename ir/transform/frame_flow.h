@@ -62,7 +62,7 @@ class FrameFlow {
 
   /// Some program has a word of the frame (with FrameOps that replace or add; no layers).
   [[nodiscard]] bool Any() const { return any_; }
-  [[nodiscard]] FrameState Before(ProgramId program, BlockId block) const;
+  [[nodiscard]] FrameState Before(BlockId block) const;
   [[nodiscard]] FrameState After(ProgramId program, BlockId block) const;
   /// Why the frame behind this block is not known although it was before; empty if it is.
   [[nodiscard]] std::string_view Trouble(ProgramId program, BlockId block) const;

@@ -38,7 +38,7 @@ struct Flow {
   }
   FrameState Before(std::uint32_t program, std::uint32_t block) const {
     const ProgramId id{program};
-    return frames->Before(id, module.programs[id].blocks[block]);
+    return frames->Before(module.programs[id].blocks[block]);
   }
   diag::Sink sink;
   Module module;

@@ -79,8 +79,8 @@ struct Event {
   std::uint16_t moved_axes = 0;         // axes that this block names
   std::uint32_t turns = 0;              // kArc: additional full turns
   std::uint32_t number = 0;             // tool, offset, M function; work offset number
-  std::uint32_t extension =
-      0;  // work offset G54.1 P; of several reference points; decimals of a tool number, as hundredths
+  // Of a work offset (G54.1 P), of several reference points, or the decimals of a tool number as hundredths.
+  std::uint32_t extension = 0;
   double position[ir::kMaxAxes] = {};  // end point; kReference: unused
   double from[ir::kMaxAxes] = {};      // start point, where known
   double center[2] = {};               // in the axis order of the plane

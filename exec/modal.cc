@@ -190,8 +190,8 @@ void Kinematics::SetFeed(const BlockWork& work) {
   if (Unknown(channel_.modal.units == ir::Units::kUnknown, "the unit of lengths")) return;
   channel_.feed_mode = channel_.modal.feed_mode;
   // A lead stays a length where other moves have their F as 1/min (fanuc-5, F lead of a thread).
-  const bool time =
-      channel_.feed_mode == ir::FeedMode::kInverseTime && motion != ir::Motion::kThread && !variable_thread;
+  const bool lead = session_.machine.thread_lead_from_feed && (motion == ir::Motion::kThread || variable_thread);
+  const bool time = channel_.feed_mode == ir::FeedMode::kInverseTime && !lead;
   channel_.feed = time ? work.feed : work.feed * FeedFactor();
   channel_.feed_known = true;
 }

@@ -173,6 +173,11 @@ TEST_CASE_FIXTURE(RunFixture, "the lead of a thread is F on some controls, and t
         "RAPID Z5\nTHREAD Z-10 pitch 1.5\nTHREAD Z-20 pitch 2 change 0.1\nTHREAD Z-30 pitch 2 change -0.1\n");
 }
 
+TEST_CASE_FIXTURE(RunFixture, "under inverse time F of a thread is a lead only where the control takes it from F") {
+  CHECK(Trace({"G700 G93 G1 X1 F2", "G33 Z-1 K0.1 F3", "G1 X2"}) ==
+        "LINE X25.4 F2/t\nTHREAD X25.4 Z-25.4 pitch 2.54\nLINE X50.8 Z-25.4 F3/t\n");
+}
+
 TEST_CASE_FIXTURE(RunFixture, "a motion word of one block gives way to the one before") {
   CHECK(Trace({"G0 Z5 F100", "G63 Z-5", "Z6"}) == "RAPID Z5\nLINE Z-5 F100\nRAPID Z6\n");
 }

@@ -139,7 +139,8 @@ void CheckFlow(Context& context, const app::ProgramSet& set, const CheckOptions&
     check::CheckExactLoopEnds(set.module, program, subject.graphs, context.findings);
   }
   const check::ValueRuleOptions rules = app::ValueRuleOptionsFor(context, set, options.config);
-  (void)check::CheckValues(set.module, subject.machine, subject.graphs, subject.calls, rules, context.findings);
+  (void)check::CheckValues(set.module, subject.machine, subject.graphs, subject.calls, subject.modal, rules,
+                           context.findings);
 }
 
 /// What the control takes and only ncport does not translate is no mistake of the program: check mentions it.

@@ -11,7 +11,6 @@ void CheckPrograms(const Subject& subject, diag::Sink& sink) {
     CheckUnusedLabels(subject, program, sink);
     CheckJumpsIntoStructures(subject, program, sink);
     CheckProgramEnd(subject, program, sink);
-    CheckArcs(subject, program, sink);
     CheckArcWords(subject, program, sink);
     CheckLoopCounters(subject, program, sink);
     CheckExactComparisons(subject, program, sink);

@@ -26,9 +26,6 @@ void CheckUnusedLabels(const Subject& subject, ir::ProgramId program, diag::Sink
 void CheckJumpsIntoStructures(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
 /// NC4005: a way leads to the end of the text without an end word, where the control wants one.
 void CheckProgramEnd(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
-/// NC5004, NC2005, NC1013: end points and centre of an arc that are all literal and do not lie on one circle, a radius
-/// that does not reach from the start to the end, or a radius where both are one point.
-void CheckArcs(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
 /// NC5005, NC1002, NC1013: arcs that nothing describes, centres outside of the plane, a radius on a straight line,
 /// polar words beside an axis of the plane.
 void CheckArcWords(const Subject& subject, ir::ProgramId program, diag::Sink& sink);

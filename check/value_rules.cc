@@ -35,6 +35,9 @@ class AllRules final : public RangeObserver {
   void Block(const RangeSite& site, RangeLookup& values) override {
     for (const auto& rule : rules_) rule->Block(site, values);
   }
+  void WordTurn(const RangeSite& site, RangeLookup& values) override {
+    for (const auto& rule : rules_) rule->WordTurn(site, values);
+  }
   void Exit(const RangeSite& site, RangeLookup& values) override {
     for (const auto& rule : rules_) rule->Exit(site, values);
   }
@@ -53,7 +56,8 @@ class AllRules final : public RangeObserver {
 
 ir::analysis::RangeStatistics CheckValues(const ir::Module& module, const ir::Machine& machine,
                                           const ir::analysis::FlowGraphs& graphs, const ir::analysis::CallGraph& calls,
-                                          const ValueRuleOptions& options, diag::Sink& sink) {
+                                          const ir::analysis::ModalFlow& modal, const ValueRuleOptions& options,
+                                          diag::Sink& sink) {
   const ValueRuleInput input{module, machine, options};
   ValueFindings findings(input);
   std::vector<std::unique_ptr<ValueRule>> rules;
@@ -64,6 +68,8 @@ ir::analysis::RangeStatistics CheckValues(const ir::Module& module, const ir::Ma
   rules.push_back(MakeLoops(input, findings, graphs));
   rules.push_back(MakeJumpLoops(input, findings, graphs));
   rules.push_back(MakeCallAlarms(input, findings, graphs));
+  rules.push_back(MakeArcs(input, findings, graphs, modal));
+  rules.push_back(MakeWordValues(input, findings));
   AllRules all(rules);
   ir::analysis::RangeOptions range_options;
   range_options.declared = options.declared;

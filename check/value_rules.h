@@ -6,6 +6,7 @@
 #include "check/value_findings.h"
 #include "ir/analysis/call_graph.h"
 #include "ir/analysis/cfg.h"
+#include "ir/analysis/modal_state.h"
 
 namespace ncport::check {
 
@@ -22,11 +23,18 @@ std::unique_ptr<ValueRule> MakeJumpLoops(const ValueRuleInput& input, ValueFindi
 /// Calls of cycles that end in an alarm because of what they pass.
 std::unique_ptr<ValueRule> MakeCallAlarms(const ValueRuleInput& input, ValueFindings& findings,
                                           const ir::analysis::FlowGraphs& graphs);
+/// NC5004, NC2005, NC1013: arcs whose points and centre do not lie on one circle, whose radius does not reach from the
+/// start to the end, or has a radius where both are one point.
+std::unique_ptr<ValueRule> MakeArcs(const ValueRuleInput& input, ValueFindings& findings,
+                                    const ir::analysis::FlowGraphs& graphs, const ir::analysis::ModalFlow& modal);
+/// NC2005: values that words cannot take: below 0, a feed or scale factor of 0, too many repetitions.
+std::unique_ptr<ValueRule> MakeWordValues(const ValueRuleInput& input, ValueFindings& findings);
 
 /// Reports what the rules find. Severity follows certainty: an error where every run that comes there alarms, a warning
 /// where the program lets such values through.
 ir::analysis::RangeStatistics CheckValues(const ir::Module& module, const ir::Machine& machine,
                                           const ir::analysis::FlowGraphs& graphs, const ir::analysis::CallGraph& calls,
-                                          const ValueRuleOptions& options, diag::Sink& sink);
+                                          const ir::analysis::ModalFlow& modal, const ValueRuleOptions& options,
+                                          diag::Sink& sink);
 
 }  // namespace ncport::check

@@ -18,26 +18,6 @@ using ir::WordOp;
 
 namespace words = dialects::sinumerik;
 
-namespace {
-
-/// Words whose value has no sign: speeds, feeds, tools, edges and times.
-bool CountsUp(WordOp op) {
-  switch (op) {
-    case WordOp::kFeed:
-    case WordOp::kFeedOnce:
-    case WordOp::kSpeed:
-    case WordOp::kSpeedLimit:
-    case WordOp::kTool:
-    case WordOp::kEdge:
-    case WordOp::kDwellSeconds:
-      return true;
-    default:
-      return false;
-  }
-}
-
-}  // namespace
-
 std::optional<double> Resolver::LiteralNumber(ExprId id) const {
   double sign = 1;
   while (id.Valid()) {
@@ -73,7 +53,6 @@ bool Resolver::BlockRules(const ir::Block& block) {
     if (word.op == WordOp::kOpeningAngle) ok = ok && Limit(word, 0, 360, "0 to 360");
     if (word.op == WordOp::kChamfer) ok = ok && Limit(word, 0, 1e300, "0 and above");
     if (word.op == WordOp::kPolarRadius) ok = ok && Limit(word, 0, 1e300, "0 and above");
-    if (CountsUp(word.op)) Sign(word);
     if (word.op == WordOp::kAlarm) AlarmNumber(word);
     ok = ok && Turn(word);
   }
@@ -117,7 +96,7 @@ void Resolver::AlarmNumber(const ir::Word& word) {
   constexpr double kFirst = 60000;
   constexpr double kLast = 69999;
   const std::optional<double> value = LiteralNumber(word.value);
-  if (!value || (*value >= kFirst && *value <= kLast)) return;
+  if (!value || *value < 0 || (*value >= kFirst && *value <= kLast)) return;  // no number is below 0
   sink_
       .ReportAs(diag::Severity::kWarning, Code::kOutOfRange, module_.RangeOf(module_.blocks[block_], word.value),
                 *value, "60000 to 69999")
@@ -141,14 +120,6 @@ void Resolver::Spindles(const ir::Block& block) {
     finding.help = "both act on the same spindle: give each a block of its own, or leave out one";
     return;
   }
-}
-
-// A sign in front of such a value is a slip; the card does not say what the control makes of it.
-void Resolver::Sign(const ir::Word& word) {
-  const std::optional<double> value = LiteralNumber(word.value);
-  if (!value || *value >= 0) return;
-  sink_.ReportAs(diag::Severity::kWarning, Code::kOutOfRange, module_.RangeOf(module_.blocks[block_], word.value),
-                 *value, "0 and above");
 }
 
 // Card 8.7: TRANS and its kin take the axis words of their block, so a motion word has nothing to move.

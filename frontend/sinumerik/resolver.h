@@ -55,7 +55,6 @@ class Resolver {
   void Marks(const ir::Block& block);
   [[nodiscard]] std::string_view Slice(const SourceRange& at) const;
   bool PolarBesideAxis(const ir::Block& block);
-  void Sign(const ir::Word& word);
   bool Turn(const ir::Word& word);
   void AlarmNumber(const ir::Word& word);
   void Spindles(const ir::Block& block);

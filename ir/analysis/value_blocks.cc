@@ -29,14 +29,14 @@ void ValueFlow::Step(Context& context, BlockId id, Ways& ways) {
   for (const WordId word_id : block.words) {
     const ir::Word& word = module_.words[word_id];
     if (word.phase == Phase::kFlow || word.phase == Phase::kLast) continue;
-    transfer_.At(id, word_id);
+    Turn(id, word_id);
     Word(context, block, word, ways);
     if (!ways.fall.reached) return;
   }
   for (const WordId word_id : block.words) {
     const ir::Word& word = module_.words[word_id];
     if (word.phase != Phase::kFlow) continue;
-    transfer_.At(id, word_id);
+    Turn(id, word_id);
     FlowWord(context, block, word, ways);
     if (!ways.fall.reached) return;
   }
@@ -49,6 +49,11 @@ void ValueFlow::Step(Context& context, BlockId id, Ways& ways) {
     ways.fall.reached = false;
     return;
   }
+}
+
+void ValueFlow::Turn(BlockId block, WordId word) {
+  transfer_.At(block, word);
+  if (mode_ == Mode::kReplay) transfer_.Observer()->WordTurn(transfer_.Site(), transfer_);
 }
 
 void ValueFlow::Word(Context& context, const Block& /*block*/, const ir::Word& word, Ways& ways) {

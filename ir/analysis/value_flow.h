@@ -77,6 +77,8 @@ class ValueFlow {
 
   void Chain(Context& context, std::uint32_t position, ValueState start);
   void Step(Context& context, BlockId id, Ways& ways);
+  /// The next word: values are those of its turn.
+  void Turn(BlockId block, WordId word);
   void Word(Context& context, const Block& block, const ir::Word& word, Ways& ways);
   void FlowWord(Context& context, const Block& block, const ir::Word& word, Ways& ways);
   void Loop(const Block& opening, bool first, Ways& ways);

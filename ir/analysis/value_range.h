@@ -71,6 +71,8 @@ class RangeObserver {
   virtual void CountedLoop(const RangeSite&, const Interval& /*start*/, const Interval& /*end*/,
                            const Interval& /*step*/) {}
   virtual void Block(const RangeSite&, RangeLookup&) {}
+  /// A word that control comes to in its turn (site.word), before it acts.
+  virtual void WordTurn(const RangeSite&, RangeLookup&) {}
   /// The end of a main program, a return or the end of the text.
   virtual void Exit(const RangeSite&, RangeLookup&) {}
   /// All contexts of one start were handed out; they end with it.

@@ -84,7 +84,9 @@ Interval ValueTransfer::ValueOf(SpaceId space, std::uint32_t cell) const {
 Interval ValueTransfer::Evaluate(ExprId expr) {
   RangeObserver* const observer = observer_;
   observer_ = nullptr;
+  looks_ = true;
   const Interval value = Eval(expr);
+  looks_ = false;
   observer_ = observer;
   return value;
 }
@@ -230,7 +232,7 @@ Interval ValueTransfer::EvalBinary(ExprId id, const Expr& expr) {
   const Interval result = Operated(id, expr, operands, 2);
   const bool divides = expr.op == ExprOp::kDivide || expr.op == ExprOp::kDivideInteger || expr.op == ExprOp::kModulo;
   // Whoever comes behind the division did not divide by 0.
-  if (divides && operands[1].HasZero()) {
+  if (divides && operands[1].HasZero() && !looks_) {
     if (operands[1].IsZero()) {
       // No run comes behind it: one finding is enough, further ones for the same 0 are none.
       ExprId place = right;
@@ -364,7 +366,7 @@ Interval ValueTransfer::EvalFunction(ExprId id, const Expr& expr) {
   const bool integer = result.Has(Interval::kInteger) || expr.type == Type::kInt;
   result = Finished(result, expr, integer);
   // Values behind the function are those of its domain.
-  if (result.HasNumber() && expr.count == 1) {
+  if (result.HasNumber() && expr.count == 1 && !looks_) {
     const ExprId argument = module_.Item(expr.b);
     if (function == Function::kSqrt && args[0].low < 0) (void)Narrow(argument, {0, kInfinity, Interval::kVacant});
     if (function == Function::kLn && args[0].low <= 0) (void)Narrow(argument, {0, kInfinity, Interval::kNonZero});

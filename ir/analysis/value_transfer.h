@@ -80,6 +80,7 @@ class ValueTransfer : public RangeLookup {
   const Machine& machine_;
   const SlotMap& slots_;
   RangeObserver* observer_ = nullptr;
+  bool looks_ = false;  // evaluated for an observer: the state learns nothing from it
   RangeSite site_;
   ValueState* state_ = nullptr;
   bool shared_references_ = false;

@@ -12,6 +12,7 @@
 #include "check/value_rules.h"
 #include "ir/analysis/call_graph.h"
 #include "ir/analysis/cfg.h"
+#include "ir/analysis/modal_state.h"
 #include "ir/dump.h"
 #include "tests/random/direction_checks.h"
 #include "tests/random/random_source.h"
@@ -68,7 +69,7 @@ void ChangeValues(ir::Module& module, RandomSource& random) {
 
 bool IsOfValues(ir::AlarmClass alarm) {
   return alarm == ir::AlarmClass::kArithmetic || alarm == ir::AlarmClass::kConversion ||
-         alarm == ir::AlarmClass::kIndex;
+         alarm == ir::AlarmClass::kIndex || alarm == ir::AlarmClass::kRange;
 }
 
 /// Lines with a finding of that class.
@@ -78,10 +79,11 @@ std::set<std::uint32_t> Announced(const diag::Sink& sink, ir::AlarmClass alarm) 
     const diag::Code code = finding.code;
     const bool arithmetic =
         code == diag::Code::kDivisionByZero || code == diag::Code::kOutOfDomain || code == diag::Code::kOverflow;
-    // Bits of a value that is no 32-bit number are a conversion too.
+    // Bits of a value that is no 32-bit number are a conversion too, and counts and factors have ranges.
     const bool conversion = code == diag::Code::kOutOfRange;
     const bool index = code == diag::Code::kArrayIndex;
-    if ((alarm == ir::AlarmClass::kArithmetic && arithmetic) || (alarm == ir::AlarmClass::kConversion && conversion) ||
+    if ((alarm == ir::AlarmClass::kArithmetic && arithmetic) ||
+        ((alarm == ir::AlarmClass::kConversion || alarm == ir::AlarmClass::kRange) && conversion) ||
         (alarm == ir::AlarmClass::kIndex && index))
       lines.insert(finding.at.line);
   }
@@ -97,10 +99,11 @@ std::string DumpOf(const ir::Module& module) {
 diag::Sink CheckAll(const ir::Module& module, const ir::Machine& machine, bool all) {
   const ir::analysis::FlowGraphs graphs(module);
   const ir::analysis::CallGraph calls(module);
+  const ir::analysis::ModalFlow modal(module, machine, graphs, calls, {machine.start, {}});
   check::ValueRuleOptions options;
   options.all = all;
   diag::Sink sink(1'000'000);
-  (void)check::CheckValues(module, machine, graphs, calls, options, sink);
+  (void)check::CheckValues(module, machine, graphs, calls, modal, options, sink);
   return sink;
 }
 

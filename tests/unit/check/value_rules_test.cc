@@ -43,7 +43,8 @@ Result Check(std::string_view profile_name, const std::vector<File>& texts,
   options.control = "CONTROL alarm";
   if (declare != nullptr) options.declared = declare(module);
   Result result;
-  result.steps = CheckValues(module, subject.machine, subject.graphs, subject.calls, options, sink).steps;
+  result.steps =
+      CheckValues(module, subject.machine, subject.graphs, subject.calls, subject.modal, options, sink).steps;
   for (const ir::ProgramId program : module.programs.Ids()) {
     CheckUnreachable(module, program, subject.graphs, sink);
     CheckComparisons(module, program, sink);
@@ -61,6 +62,7 @@ Result Check(std::string_view profile_name, const std::vector<File>& texts,
 
 std::string Mill(std::string_view text) { return Check("sinumerik-840d-mill", {{"main.mpf", text}}).found; }
 std::string Sub(std::string_view text) { return Check("sinumerik-840d-mill", {{"sub.spf", text}}).found; }
+std::string Lathe(std::string_view text) { return Check("sinumerik-840d-lathe", {{"main.mpf", text}}).found; }
 std::string Macro(std::string_view text) { return Check("fanuc-mill", {{"o1.nc", text}}).found; }
 std::string Set(std::string_view main, std::string_view sub) {
   return Check("sinumerik-840d-mill", {{"main.mpf", main}, {"sub.spf", sub}}).found;
@@ -285,6 +287,81 @@ TEST_CASE("value rules: steps grow in line with the program") {
   const std::uint64_t four = steps(200, 200);
   CHECK(two < 2.2 * static_cast<double>(one));
   CHECK(four < 2.2 * static_cast<double>(two));
+}
+
+TEST_CASE("value rules: arcs by their radius that end where they start") {
+  CHECK(Mill("G0 X4 Y5\nG1 Z-1 F100\nG2 X4 Y5 CR=8\nM30\n") == "NC1013 3 error");
+  CHECK(Mill("G0 X4 Y5 F100\nG3 X=AC(4) CR=8\nM30\n") == "NC1013 2 error");
+  CHECK(Lathe("G18 DIAMON\nG0 X20 Z0 F0.1\nG2 X20 Z0 CR=3\nM30\n") == "NC1013 3 error");
+  CHECK(Macro("O1\nG90 G0 G54 X3. Y0.\nG2 X3. Y0. R4. F100.\nM30\n") == "NC1013 3");  // no motion, no alarm
+  CHECK(Mill("DEF REAL XMID=50, RAD=22\nG0 X=XMID+RAD Y0 F100\nG3 X=XMID+RAD Y0 CR=RAD\nM30\n") == "NC1013 3 error");
+  CHECK(Mill("DEF REAL XMID=50\nG0 X=XMID Y0 F100\nXMID=R1\nG3 X=XMID Y0 CR=5\nM30\n").empty());
+  CHECK(Mill("G0 X4 Y5 F100\nG2 X4 Y5 I-3 J0\nM30\n").empty());
+  CHECK(Mill("G0 X4 Y5 F100\nG2 X4 Y6 CR=8\nM30\n").empty());
+  CHECK(Mill("G0 X4 Y5 F100\nTRANS X1\nG2 X4 Y5 CR=8\nM30\n").empty());
+  CHECK(Mill("G0 X4 Y5 F100\nG91 G2 X4 Y5 CR=8\nM30\n").empty());
+}
+
+TEST_CASE("value rules: arcs whose ends lie on no circle") {
+  CHECK(Mill("G0 X0 Y0\nG2 X10 Y0 I4 J0 F100\nM30\n") == "NC5004 2 error");
+  CHECK(Mill("G0 X0 Y0 F100\nG91 G3 X10 Y0 J5\nM30\n") == "NC5004 2 error");
+  CHECK(Lathe("G18 DIAMON\nG0 X20 Z0 F0.1\nG2 X40 Z-12 I10 K0\nM30\n") == "NC5004 3 error");
+  CHECK(Mill("G0 X0 Y0\nG2 X10 Y0 I5 J0 F100\nG2 I-5\nM30\n").empty());
+  CHECK(Lathe("G18 DIAMON\nG0 X20 Z0 F0.1\nG2 X40 Z-10 I10 K0\nM30\n").empty());
+  CHECK(Mill("G0 X0 Y0\nTRANS X1\nG2 X10 Y0 I4 J0 F100\nM30\n").empty());
+  CHECK(Macro("O1\nG90 G0 G54 X0. Y0.\nG2 X10. Y0. I4. J0. F100.\nM30\n") == "NC5004 3 error");
+  CHECK(Mill("R5=10 R6=4\nG0 X0 Y0\nG2 X=R5 Y0 I=R6 J0 F100\nM30\n") == "NC5004 3 error");
+  CHECK(Mill("R5=10 R6=4\nG0 X0 Y0\nR6=5 G2 X=R5 Y0 I=R6 J0 F100\nM30\n").empty());
+  CHECK(Macro("O1\n#1=4.\nG90 G0 G54 X0. Y0.\nG2 X10. Y0. I#1 J0. F100.\nM30\n") == "NC5004 4 error");
+  // One of the calls gives such points.
+  constexpr std::string_view kHalf = "PROC SUB(REAL RAD)\nG0 X=RAD Y0\nG3 X=-RAD Y0 I-20 J0 F100\nM17\n";
+  CHECK(Set("G17\nSUB(20)\nSUB(19)\nM30\n", kHalf) == "NC5004 3 error");
+  CHECK(Set("G17\nSUB(20)\nSUB(20.001)\nM30\n", kHalf).empty());
+  CHECK(Sub(kHalf).empty());
+  CHECK(Mill("G0 X=R1 Y0\nG2 X10 Y0 I4 J0 F100\nM30\n").empty());
+}
+
+TEST_CASE("value rules: radii that do not reach the end point") {
+  CHECK(Mill("G0 X0 Y0 F100\nG2 X40 Y0 CR=19\nM30\n") == "NC2005 2 error");
+  CHECK(Mill("G0 X0 Y0 F100\nG3 X0 Y40 CR=-19\nM30\n") == "NC2005 2 error");
+  CHECK(Lathe("G18 DIAMON\nG0 X20 Z0 F0.1\nG2 X40 Z0 CR=4\nM30\n") == "NC2005 3 error");
+  CHECK(Macro("O1\nG17 G90 G0 G54 X0. Y0.\nG2 X40. R19. F100.\nM30\n") == "NC2005 3 error");
+  CHECK(Mill("G0 X0 Y0 F100\nG2 X40 Y0 CR=20\nM30\n").empty());
+  CHECK(Lathe("G18 DIAMON\nG0 X20 Z0 F0.1\nG2 X40 Z0 CR=5\nM30\n").empty());
+  CHECK(Mill("R2=19\nG0 X0 Y0 F100\nG2 X40 Y0 CR=R2\nM30\n") == "NC2005 3 error");
+  CHECK(Mill("R2=20\nIF R1>1\nR2=19\nENDIF\nG0 X0 Y0 F100\nG2 X40 Y0 CR=R2\nM30\n").empty());
+  CHECK(Mill("G0 X=R1 Y0 F100\nG2 X40 Y0 CR=1\nM30\n").empty());
+}
+
+TEST_CASE("value rules: values that words cannot take") {
+  CHECK(Mill("R1=-1\nG17 G90\nG1 X10 CHF=R1 F100\nY10\nM30\n") == "NC2005 3 error");
+  CHECK(Mill("R1=-2\nG17\nG111 X0 Y0\nG0 AP=10 RP=R1\nM30\n") == "NC2005 4 error");
+  CHECK(Mill("R1=0\nSCALE X=R1\nM30\n") == "NC2005 2 error");
+  CHECK(Mill("R1=-1\nG4 F=R1\nM30\n") == "NC2005 2 error");
+  CHECK(Mill("R1=-1\nT=R1\nM30\n") == "NC2005 2 error");
+  CHECK(Mill("R1=-1\nAB: G0 X1\nREPEAT AB P=R1\nM30\n") == "NC2005 3 error");
+  CHECK(Set("R1=0\nSUB P=R1\nM30\n", "G0 X1\nM17\n") == "NC2005 2 error");
+  CHECK(Macro("O1\n#1=-1.\nG04 X#1\nM30\n") == "NC2005 3 error");
+  CHECK(Macro("O1\n#1=0\nG51 X0 Y0 Z0 P#1\nG50\nM30\n") == "NC2005 3 error");
+  // A rule that looks at a value teaches the analysis nothing about it.
+  CHECK(Mill("FOR R1=-2 TO 2\nG4 F=4+SQRT(R1)\nENDFOR\nM30\n") == "NC3002 2");
+  // Nothing alarms before the next move, or the card does not say it.
+  CHECK(Mill("R1=0\nG1 X1 F=R1\nM30\n") == "NC2005 2");
+  CHECK(Mill("S-500 M3\nM30\n") == "NC2005 1");
+  CHECK(Mill("G1 X5 F=-100\nM30\n") == "NC2005 1");
+  CHECK(Mill("D-1\nM30\n") == "NC2005 1");
+  CHECK(Mill("G4 F-1\nM30\n") == "NC2005 1");
+  CHECK(Mill("S=R1 F=-R2 D0 T0\nG1 X-5 Z=-3\nG4 F0\nM30\n").empty());
+  CHECK(Macro("O1\nF-100.\nM30\n") == "NC2005 2");
+  // The program lets such values through.
+  CHECK(Mill("FOR R1=0 TO 3\nF=R1*100\nENDFOR\nM30\n") == "NC2005 2");
+  CHECK(Set("SUB(0.1)\nSUB(0)\nM30\n", "PROC SUB(REAL FEED)\nG1 X1 F=FEED\nM17\n") == "NC2005 2");
+  CHECK(Mill("FOR R1=1 TO 3\nF=R1*100\nG4 F=R1-1\nENDFOR\nM30\n").empty());
+  CHECK(Set("SUB(0.1)\nSUB(0)\nM30\n", "PROC SUB(REAL FEED)\nIF FEED>0\nF=FEED\nENDIF\nM17\n").empty());
+  CHECK(Mill("R1=2 G4 F=R1-3\nM30\n") == "NC2005 1 error");
+  CHECK(Mill("R1=-1\nR1=2 G4 F=R1\nG0 X=R1 Y-5\nM30\n").empty());
+  CHECK(Mill("G1 X1 F=R1\nG4 F=R2\nT=R3\nSCALE X=R4\nM30\n").empty());
+  CHECK(Macro("O1\n#1=#0\nH#1\nM30\n").empty());
 }
 
 }  // namespace ncport::check

@@ -52,14 +52,6 @@ TEST_CASE("a target that names its way lies within one turn") {
   CHECK(Findings("SPOS=ACN(270)\nSPOS=ACP(0)\nSPOS=DC(359.99)\nSPOS=ACN(R1)\nSPOS=-90\nSPOS=IC(-90)\n").empty());
 }
 
-TEST_CASE("speeds, feeds, tools, edges and times have no sign") {
-  CHECK(Findings("S-500 M3\n") == "NC2005 1:1 -500 is outside 0 and above\n");
-  CHECK(Findings("G1 X5 F=-100\n") == "NC2005 1:9 -100 is outside 0 and above\n");
-  CHECK(Findings("D-1\n") == "NC2005 1:1 -1 is outside 0 and above\n");
-  CHECK(Findings("G4 F-1\n") == "NC2005 1:4 -1 is outside 0 and above\n");
-  CHECK(Findings("S=R1 F=-R2 D0 T0\nG1 X-5 Z=-3\nG4 F0\n").empty());
-}
-
 TEST_CASE("one spindle takes one spindle word") {
   CHECK(Findings("S500 M3 M4\n") == "NC1013 1:9 M3 and M4 exclude each other in one block\n");
   CHECK(Findings("M5 S500 M3\n") == "NC1013 1:9 M5 and M3 exclude each other in one block\n");

@@ -81,18 +81,8 @@ bool ArrangeSpindle(const RaiseInput& input, Translation& out, diag::Sink& sink)
       const std::string r_word = profile.spindle.r_word.Or("");
       const bool r_everywhere = profile.machine_class.Is(dialects::MachineClass::kQuickTurn);
       if (!r_word.empty() && r_everywhere && has_speed) spindle.push_back(TextWord(module, r_word));
-      const auto insert = [&](const std::vector<Word>& words) {
-        Block made = editor.MakeBlock(id);
-        made.skip_level = block.skip_level;
-        // Jumps to the block lead to what is put in front of it.
-        made.label = std::exchange(module.blocks[id].label, StringId{});
-        made.number = std::exchange(module.blocks[id].number, Block::kNoNumber);
-        made.number_digits = block.number_digits;
-        editor.SetWords(made, words);
-        editor.InsertBefore(id, made);
-      };
       // The limit first: without it the spindle would run up as the tool nears the axis (hazards#5).
-      if (!limit.empty()) insert(limit);
+      if (!limit.empty()) editor.PutInFront(id, limit);
       // Words before the motion stand in front of it, M5 behind (sinumerik-8.10), and with it all that comes after the
       // motion, in its order: M5 behind M30 would never run.
       const auto acts_behind = [](const Word& word) { return word.phase >= ir::Phase::kAfter; };
@@ -109,17 +99,10 @@ bool ArrangeSpindle(const RaiseInput& input, Translation& out, diag::Sink& sink)
         rest = std::exchange(spindle, {});
         behind.clear();
       }
-      Block changed = module.blocks[id];
-      editor.SetWords(changed, rest);
-      module.blocks[id].words = changed.words;
+      editor.SetWords(id, rest);
       if (rest.empty()) editor.Remove(id);
-      if (!spindle.empty()) insert(spindle);
-      if (!behind.empty()) {
-        Block made = editor.MakeBlock(id);
-        made.skip_level = block.skip_level;
-        editor.SetWords(made, behind);
-        editor.InsertAfter(id, made);
-      }
+      if (!spindle.empty()) editor.PutInFront(id, spindle);
+      if (!behind.empty()) editor.PutBehind(id, behind);
     }
     editor.Apply();
   }

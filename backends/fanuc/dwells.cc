@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "ir/analysis/flow_analyses.h"
@@ -87,9 +86,7 @@ bool MapDwells(const RaiseInput& input, Translation& out, diag::Sink& sink) {
         finding.help = help;
         if (call.Valid()) finding.notes.push_back({place, "the cycle dwells here"});
       };
-      Block changed = block;
-      editor.SetWords(changed, words);
-      module.blocks[id].words = changed.words;
+      editor.SetWords(id, words);
       if (turns && (counts == nullptr || *counts != Counts::kRevolutions)) {
         refuse(
             "a dwell in turns of the spindle",
@@ -109,15 +106,8 @@ bool MapDwells(const RaiseInput& input, Translation& out, diag::Sink& sink) {
         refuse("a feed mode beside a dwell", "write the feed mode in a block of its own");
         continue;
       }
-      Block before = editor.MakeBlock(id), behind = editor.MakeBlock(id);
-      before.skip_level = behind.skip_level = block.skip_level;
-      before.label = std::exchange(module.blocks[id].label, StringId{});
-      before.number = std::exchange(module.blocks[id].number, Block::kNoNumber);
-      before.number_digits = block.number_digits;
-      editor.SetWords(before, {FeedModeWord(needed)});
-      editor.InsertBefore(id, before);
-      editor.SetWords(behind, {FeedModeWord(mode)});
-      editor.InsertAfter(id, behind);
+      editor.PutInFront(id, {FeedModeWord(needed)});
+      editor.PutBehind(id, {FeedModeWord(mode)});
     }
     editor.Apply();
   }

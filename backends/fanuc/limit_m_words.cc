@@ -137,19 +137,8 @@ void LimitMWords(const RaiseInput& input, Translation& out) {
       const Block block = module.blocks[id];
       const std::vector<Words> parts = Parts(module, limit).Split(block);
       if (parts.size() < 2) continue;
-      for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
-        Block made = editor.MakeBlock(id);
-        made.skip_level = block.skip_level;
-        made.flags |= block.flags & Block::kAdded;
-        made.label = std::exchange(module.blocks[id].label, StringId{});
-        made.number = std::exchange(module.blocks[id].number, Block::kNoNumber);
-        made.number_digits = block.number_digits;
-        editor.SetWords(made, parts[i]);
-        editor.InsertBefore(id, made);
-      }
-      Block last = module.blocks[id];
-      editor.SetWords(last, parts.back());
-      module.blocks[id].words = last.words;
+      for (std::size_t i = 0; i + 1 < parts.size(); ++i) editor.PutInFront(id, parts[i]);
+      editor.SetWords(id, parts.back());
     }
     editor.Apply();
   }

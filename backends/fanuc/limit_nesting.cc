@@ -47,10 +47,7 @@ class Pass {
       module_.words[word_id].value = value;
     }
     if (held_.empty()) return;
-    Block& first = held_.front();
-    first.number = block.number;
-    first.number_digits = block.number_digits;
-    module_.blocks[id].number = Block::kNoNumber;
+    editor_.TakeHead(held_.front(), id);
     for (const Block& made : held_) editor_.InsertBefore(id, made);
   }
 

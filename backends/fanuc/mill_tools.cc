@@ -438,25 +438,11 @@ void Mapper::Rewrite(ProgramId program) {
 
     const bool same = kept.size() == block.words.count && words.edge == nullptr;
     if (call.empty() && same) continue;
-    if (!call.empty()) {
-      Block made = editor.MakeBlock(id);
-      made.number = block.number;
-      made.number_digits = block.number_digits;
-      made.label = block.label;
-      made.skip_level = block.skip_level;
-      made.comments = block.comments;
-      editor.SetWords(made, {TextWord(module_, call)});
-      module_.blocks[id].comments = {};
-      module_.blocks[id].label = {};
-      module_.blocks[id].number = Block::kNoNumber;
-      editor.InsertBefore(id, made);
-    }
+    if (!call.empty()) editor.PutInFront(id, {TextWord(module_, call)}, {.comments = true});
     if (kept.empty()) {
       editor.Remove(id);
     } else {
-      Block rest = module_.blocks[id];
-      editor.SetWords(rest, kept);
-      module_.blocks[id].words = rest.words;
+      editor.SetWords(id, kept);
     }
   }
   editor.Apply();

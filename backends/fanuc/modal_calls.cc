@@ -71,28 +71,16 @@ bool MapModalCalls(const RaiseInput& input, ir::Module& module, diag::Sink& sink
                         input.profile->name)
                 .help = "end the modal call by a block of its own on each way";
             break;
-          case ModalFlow::ModalCall::kActive: {
-            if (!sets) break;
-            Block end = editor.MakeBlock(id);
-            end.skip_level = block.skip_level;
-            editor.SetWords(end, {Cancel()});
-            end.label = block.label;
-            end.number = block.number;
-            end.number_digits = block.number_digits;
-            module.blocks[id].label = {};
-            module.blocks[id].number = Block::kNoNumber;
-            editor.InsertBefore(id, end);
+          case ModalFlow::ModalCall::kActive:
+            if (sets) editor.PutInFront(id, {Cancel()});
             break;
-          }
           case ModalFlow::ModalCall::kNone: {
             if (sets) break;
             std::vector<Word> kept;
             for (const WordId other : block.words) {
               if (other != word_id) kept.push_back(module.words[other]);
             }
-            Block rest = block;
-            editor.SetWords(rest, kept);
-            module.blocks[id].words = rest.words;
+            editor.SetWords(id, kept);
           }
         }
       }

@@ -58,13 +58,8 @@ void ReferencesToSteps(const RaiseInput& input, Translation& out) {
         }
         words.push_back(word);
       }
-      Block changed = block;
-      editor.SetWords(changed, words);
-      module.blocks[id].words = changed.words;
-      if (letters) continue;
-      Block back = editor.MakeBlock(id);
-      editor.SetWords(back, {DistanceWord(ir::Distance::kAbsolute)});
-      editor.InsertAfter(id, back);
+      editor.SetWords(id, words);
+      if (!letters) editor.PutBehind(id, {DistanceWord(ir::Distance::kAbsolute)});
     }
     editor.Apply();
   }

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <optional>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "dialects/fanuc/words.h"
@@ -308,18 +307,8 @@ void RotationsToNative(const RaiseInput& input, Translation& out) {
                                          MadeWord(WordOp::kFrameAngle, 0, turn)});
     }
     // The last piece is the block itself; the first one is where jumps go to.
-    for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
-      Block made = editor.MakeBlock(id);
-      Block& original = module.blocks[id];
-      made.label = std::exchange(original.label, StringId{});
-      made.number = std::exchange(original.number, Block::kNoNumber);
-      made.number_digits = original.number_digits;
-      editor.SetWords(made, pieces[i]);
-      editor.InsertBefore(id, made);
-    }
-    Block changed = module.blocks[id];
-    editor.SetWords(changed, pieces.empty() ? std::vector<Word>{} : pieces.back());
-    module.blocks[id].words = changed.words;
+    for (std::size_t i = 0; i + 1 < pieces.size(); ++i) editor.PutInFront(id, pieces[i]);
+    editor.SetWords(id, pieces.empty() ? std::vector<Word>{} : pieces.back());
   }
   editor.Apply();
   out.required.emplace_back("coordinate rotation G68, G69");

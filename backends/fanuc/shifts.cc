@@ -205,7 +205,6 @@ bool ShiftsToLocal(const RaiseInput& input, Translation& out, diag::Sink& sink) 
       frame.index = static_cast<std::uint8_t>(FrameOp::kTranslate);
       std::vector<Word> words = others;
       words.push_back(frame);
-      bool first = true;
       for (std::uint8_t axis = 0; axis < kLinearAxes; ++axis) {
         if ((shifted >> axis & 1U) == 0) continue;
         ExprId shift = values[axis];
@@ -222,22 +221,9 @@ bool ShiftsToLocal(const RaiseInput& input, Translation& out, diag::Sink& sink) 
         ExprId sum_value = shift.Valid() ? shift : make.Literal(0);
         if (add)
           sum_value = make.Binary(ir::ExprOp::kAdd, make.Variable(sums[axis]), make.Unary(ir::ExprOp::kGroup, shift));
-        Block assign = editor.MakeBlock(id);
-        assign.skip_level = block.skip_level;
-        if (first) {
-          assign.label = block.label;
-          assign.number = block.number;
-          assign.number_digits = block.number_digits;
-          module.blocks[id].label = {};
-          module.blocks[id].number = Block::kNoNumber;
-          first = false;
-        }
-        editor.SetWords(assign, {ir::MakeAssignment(make.Variable(sums[axis]), sum_value)});
-        editor.InsertBefore(id, assign);
+        editor.PutInFront(id, {ir::MakeAssignment(make.Variable(sums[axis]), sum_value)});
       }
-      Block changed = module.blocks[id];
-      editor.SetWords(changed, words);
-      module.blocks[id].words = changed.words;
+      editor.SetWords(id, words);
     }
     editor.Apply();
   }

@@ -161,13 +161,9 @@ void Pass::Rewrite(ProgramId program) {
     } else if (has_y_) {
       first.push_back(TextWord(module_, "Y0."));
     }
-    Block changed = block;
-    editor.SetWords(changed, first);
-    module_.blocks[id].words = changed.words;
+    editor.SetWords(id, first);
     if (!other_axis) continue;
-    Block made = editor.MakeBlock(id);
-    editor.SetWords(made, second);
-    editor.InsertAfter(id, made);
+    editor.PutBehind(id, second);
     const ir::Origin& origin = module_.origins[block.origin];
     out_.split_rapids.push_back({origin.file, origin.line});
   }

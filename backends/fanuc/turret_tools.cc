@@ -185,19 +185,9 @@ bool MapTurretTools(const RaiseInput& input, Translation& out, diag::Sink& sink)
         known->offset_only = known->offset_only || keeps_tool;
       }
       // T stands alone in its block (mazak-lathe-4.4); what stood beside it follows.
-      Block made = editor.MakeBlock(id);
-      made.number = block.number;
-      made.number_digits = block.number_digits;
-      made.label = block.label;
-      made.skip_level = block.skip_level;
-      made.comments = block.comments;
       Word text = TextWord(module, use.target_words, TextKind::kToolCall);
       if (keeps_tool) text.flags |= Word::kKeepsTool;
-      editor.SetWords(made, {text});
-      module.blocks[id].comments = {};
-      module.blocks[id].label = {};
-      module.blocks[id].number = Block::kNoNumber;
-      editor.InsertBefore(id, made);
+      editor.PutInFront(id, {text}, {.comments = true});
       if (lathe && selects && !work_offset.known && tool != nullptr && flow.Reached(program, id)) {
         // The tool word may drop the offset, and behind it the one in force is written again.
         sink.Report(diag::Code::kUnknownModalState, range, "the work offset", "it is written again behind a tool call")
@@ -213,9 +203,7 @@ bool MapTurretTools(const RaiseInput& input, Translation& out, diag::Sink& sink)
       if (kept.empty()) {
         editor.Remove(id);
       } else {
-        Block rest = module.blocks[id];
-        editor.SetWords(rest, kept);
-        module.blocks[id].words = rest.words;
+        editor.SetWords(id, kept);
       }
     }
     editor.Apply();

@@ -177,7 +177,7 @@ class Pass {
       words.push_back(word);
     }
     ThreadLead(block, at, words);
-    SetWords(id, block, words, dwell, editor);
+    SetWords(id, words, dwell, editor);
   }
 
   /// G28 goes by way of the point that its axis words name, and leaves the motion mode alone (fanuc-8.1). The reference
@@ -216,25 +216,15 @@ class Pass {
     number.spelling = ir::AddSpelling(module_, "FP", "sinumerik-8.2");
     number.value = make_.Number("1", ir::Type::kInt);
     point.insert(point.begin(), {ir::MakeWord(WordOp::kReference, ir::ReferenceKind::kFixedPoint), number});
-    Block changed = block;
-    editor.SetWords(changed, first);
-    module_.blocks[id].words = changed.words;
-    const auto insert = [&](const std::vector<Word>& words) {
-      Block made = editor.MakeBlock(id);
-      editor.SetWords(made, words);
-      editor.InsertAfter(id, made);
-    };
-    insert(point);
-    if (at.motion != ir::Motion::kRapid) insert({ir::MakeWord(WordOp::kMotion, at.motion)});
+    editor.SetWords(id, first);
+    editor.PutBehind(id, point);
+    if (at.motion != ir::Motion::kRapid) editor.PutBehind(id, {ir::MakeWord(WordOp::kMotion, at.motion)});
     Assume("G75 goes to fixed point 1, which must be the reference point of the source machine (sinumerik-8.2)");
   }
 
-  void SetWords(BlockId id, const Block& block, std::vector<Word>& words, const std::vector<Word>& dwell,
-                ProgramEditor& editor) {
+  void SetWords(BlockId id, std::vector<Word>& words, const std::vector<Word>& dwell, ProgramEditor& editor) {
     if (dwell.empty() || words.empty()) {
-      Block changed = block;
-      editor.SetWords(changed, dwell.empty() ? words : dwell);
-      module_.blocks[id].words = changed.words;
+      editor.SetWords(id, dwell.empty() ? words : dwell);
       return;
     }
     // G4 stands alone (sinumerik-8.2); what acts behind the motion comes behind it.
@@ -243,24 +233,9 @@ class Pass {
       const bool behind = word.phase == ir::Phase::kAfter || word.phase == ir::Phase::kLast;
       (behind ? last : first).push_back(word);
     }
-    bool marks = true;
     for (const std::vector<Word>* part : {&std::as_const(first), &dwell, &std::as_const(last)}) {
-      if (part->empty()) continue;
-      Block made = editor.MakeBlock(id);
-      made.skip_level = block.skip_level;
-      if (marks) {
-        made.number = block.number;
-        made.number_digits = block.number_digits;
-        made.label = block.label;
-        made.comments = block.comments;
-      }
-      marks = false;
-      editor.SetWords(made, *part);
-      editor.InsertBefore(id, made);
+      if (!part->empty()) editor.PutInFront(id, *part, {.comments = true});
     }
-    module_.blocks[id].comments = {};
-    module_.blocks[id].label = {};
-    module_.blocks[id].number = Block::kNoNumber;
     editor.Remove(id);
   }
 

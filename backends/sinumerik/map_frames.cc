@@ -130,21 +130,6 @@ class Pass {
     Replace(id, frame, FrameWord(FrameOp::kTranslate));
   }
 
-  /// Frame words stand alone (sinumerik-1.3): these go into a block before the others, with its number and label.
-  void PutBefore(BlockId id, const Block& block, const std::vector<Word>& words, ProgramEditor& editor) {
-    Block made = editor.MakeBlock(id);
-    made.skip_level = block.skip_level;
-    made.number = block.number;
-    made.number_digits = block.number_digits;
-    made.label = block.label;
-    made.comments = block.comments;
-    module_.blocks[id].number = Block::kNoNumber;
-    module_.blocks[id].label = {};
-    module_.blocks[id].comments = {};
-    editor.SetWords(made, words);
-    editor.InsertBefore(id, made);
-  }
-
   /// G69 may stand beside a move (fanuc-8.5), which comes behind it.
   void RotationEnd(BlockId id, const Block& block, const Word& frame, ProgramEditor& editor) {
     std::vector<Word> others;
@@ -164,10 +149,9 @@ class Pass {
       others.push_back(word);
     }
     if (others.empty()) return Replace(id, frame, FrameWord(FrameOp::kTranslate));
-    PutBefore(id, block, {FrameWord(FrameOp::kTranslate)}, editor);
-    Block changed = block;
-    editor.SetWords(changed, others);
-    module_.blocks[id].words = changed.words;
+    // Frame words stand alone (sinumerik-1.3).
+    editor.PutInFront(id, {FrameWord(FrameOp::kTranslate)}, {.comments = true});
+    editor.SetWords(id, others);
   }
 
   /// About a centre: there, turn, and back by the way of the turned axes.
@@ -204,17 +188,12 @@ class Pass {
     const auto put = [&](std::vector<Word> words, FrameOp op, bool own) {
       words.insert(words.begin(), FrameWord(op));
       if (own) {
-        Block changed = block;
-        editor.SetWords(changed, words);
-        module_.blocks[id].words = changed.words;
-        return;
+        editor.SetWords(id, words);
+      } else {
+        editor.PutBehind(id, words);
       }
-      Block made = editor.MakeBlock(id);
-      made.skip_level = block.skip_level;
-      editor.SetWords(made, words);
-      editor.InsertAfter(id, made);
     };
-    if (!modes.empty()) PutBefore(id, block, modes, editor);
+    if (!modes.empty()) editor.PutInFront(id, modes, {.comments = true});
     if (origin) return put({turn}, FrameOp::kRotate, true);
     put(there, FrameOp::kTranslate, true);
     put({turn}, FrameOp::kAddRotate, false);

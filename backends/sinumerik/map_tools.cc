@@ -11,6 +11,7 @@
 
 #include "backends/sinumerik/tool_rows.h"
 #include "ir/analysis/forward_flow.h"
+#include "ir/block_words.h"
 #include "ir/builder.h"
 #include "ir/literal_value.h"
 #include "ir/make_word.h"
@@ -300,14 +301,10 @@ class Pass {
       if (!active) return;
       if (*active != 0) {
         words.push_back(EdgeWord(0));
-        Block again = editor.MakeBlock(id);
-        again.skip_level = block.skip_level;
-        editor.SetWords(again, {EdgeWord(*active)});
-        editor.InsertAfter(id, again);
+        editor.PutBehind(id, {EdgeWord(*active)});
       }
     }
-    editor.SetWords(block, words);
-    module_.blocks[id].words = block.words;
+    editor.SetWords(id, words);
   }
 
   /// T0101: the change and the offset at once; a row of [tools] each.
@@ -356,8 +353,7 @@ class Pass {
       change.value = ValueOf(*target);
       words.insert(words.begin(), {change, EdgeWord(*number == 0 ? 0 : target->edge)});
     }
-    ProgramEditor(module_, {}, "map_tools").SetWords(block, words);
-    module_.blocks[id].words = block.words;
+    ir::SetWords(module_, module_.blocks[id], words);
   }
 
   const RaiseInput& input_;

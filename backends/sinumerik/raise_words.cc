@@ -154,8 +154,7 @@ bool ArrangeTexts(const RaiseInput& input, Translation& out, diag::Sink& sink) {
         editor.Remove(id);
         continue;
       }
-      editor.SetWords(block, kept);
-      module.blocks[id].words = block.words;
+      editor.SetWords(id, kept);
     }
     editor.Apply();
   }

@@ -57,8 +57,7 @@ class Pass {
       words.push_back(word);
     }
     if (words.size() == block.words.count) return;
-    editor.SetWords(block, words);
-    module_.blocks[id].words = block.words;
+    editor.SetWords(id, words);
   }
 
   /// Arcs, helices and threads (exec: MoveByMode); beside a straight move these words are something else on lathes, and

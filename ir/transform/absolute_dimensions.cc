@@ -357,9 +357,7 @@ void DimensionPass::DropModeWords() {
       }
     }
     if (!dropped) continue;
-    Block changed = block;
-    editor.SetWords(changed, kept);
-    module_.blocks[id].words = changed.words;
+    editor.SetWords(id, kept);
     if (kept.empty() && !block.label.Valid() && block.number == Block::kNoNumber && block.comments.Empty())
       editor.Remove(id);
   }

@@ -5,7 +5,6 @@
 #include <set>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "ir/axis_names.h"
@@ -163,17 +162,13 @@ void DimensionPass::Save(BlockId id, Slot slot, Slots& slots, bool before, bool 
 void DimensionPass::PutInto(ExprId place, BlockId id, SlotValue& value, bool before, bool emit) {
   const LinearForm there = FormOf(module_, place);
   if (emit && !SameForm(module_, value.form, there)) {
-    Block made = editor_->MakeBlock(id);
-    editor_->SetWords(made, {MakeAssignment(place, ExprOf(module_, value.form))});
+    // What follows reads the place on both ways: it is set even where the block is skipped.
+    const std::vector<Word> words{MakeAssignment(place, ExprOf(module_, value.form))};
     if (before) {
-      // The new block takes the place that jumps go to.
-      Block& block = module_.blocks[id];
-      made.label = std::exchange(block.label, StringId{});
-      made.number = std::exchange(block.number, Block::kNoNumber);
-      made.number_digits = block.number_digits;
-      made.flags = static_cast<std::uint8_t>(made.flags | (block.flags & Block::kMainBlock));
-      editor_->InsertBefore(id, made);
+      editor_->PutInFront(id, words, {.skip = false});
     } else {
+      Block made = editor_->MakeBlock(id);
+      editor_->SetWords(made, words);
       editor_->InsertAfter(id, made);
     }
   }

@@ -241,9 +241,7 @@ void DimensionPass::WriteDistanceModes() {
   const auto prepend = [&](BlockId id, const Word& first) {
     std::vector<Word> words{first};
     for (const WordId word_id : module_.blocks[id].words) words.push_back(module_.words[word_id]);
-    Block changed = module_.blocks[id];
-    editor.SetWords(changed, words);
-    module_.blocks[id].words = changed.words;
+    editor.SetWords(id, words);
   };
   const auto is_kept = [&](BlockId id) {
     return AnyWord(module_, module_.blocks[id],

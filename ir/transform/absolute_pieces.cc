@@ -31,15 +31,8 @@ bool ActsBehind(const Word& word) {
 }  // namespace
 
 void DimensionPass::Insert(BlockId id, const std::vector<Word>& words, bool before) {
-  Block& block = module_.blocks[id];
-  Block made = editor_->MakeBlock(id);
-  made.skip_level = block.skip_level;
-  editor_->SetWords(made, words);
-  if (!before) return editor_->InsertAfter(id, made);
-  made.label = std::exchange(block.label, StringId{});
-  made.number = std::exchange(block.number, Block::kNoNumber);
-  made.number_digits = block.number_digits;
-  editor_->InsertBefore(id, made);
+  if (!before) return editor_->PutBehind(id, words);
+  editor_->PutInFront(id, words);
 }
 
 /// sinumerik-8.3: the full turns come first, the other axes run evenly over the whole angle.

@@ -5,7 +5,6 @@
 #include <cctype>
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "ir/builder.h"
@@ -47,55 +46,29 @@ class Pass {
  private:
   void Split(BlockId id, const Block& block, const std::vector<Word>& before, ExprId condition,
              std::vector<Word> rest) {
-    // Number, label and comments stay with the first block made.
-    bool first = true;
-    const auto put = [&](const std::vector<Word>& words, bool marks) {
-      Block made = editor_.MakeBlock(id);
-      made.skip_level = block.skip_level;
-      made.flags = static_cast<std::uint8_t>(block.flags & ~Block::kMainBlock);
-      const auto take_place = [&](Block& place) {
-        place.number = block.number;
-        place.number_digits = block.number_digits;
-        place.label = block.label;
-        place.flags = static_cast<std::uint8_t>(place.flags | (block.flags & Block::kMainBlock));
-      };
-      if (std::exchange(first, false)) {
-        // A structure mark carries neither a label nor a number that jumps look for.
-        if (!marks && (block.label.Valid() || block.number != Block::kNoNumber)) {
-          Block place = editor_.MakeBlock(id);
-          take_place(place);
-          editor_.InsertBefore(id, place);
-        } else {
-          take_place(made);
-        }
-        made.comments = block.comments;
-      }
-      editor_.SetWords(made, words);
-      editor_.InsertBefore(id, made);
-    };
-    if (!before.empty()) put(before, true);
+    const auto put = [&](const std::vector<Word>& words) { editor_.PutInFront(id, words, {.comments = true}); };
+    if (!before.empty()) put(before);
     if (rest.size() == 1 && rest[0].op == WordOp::kJump && !rest[0].value.Valid()) {
       rest[0].value = condition;
-      put(rest, true);
+      put(rest);
     } else if (block.skip_level != Block::kNoSkip) {
       const StringId label = NewLabel();
       Jump jump;
       jump.target.label = label;
       put({MakeWord(WordOp::kJump, 0, make_.Unary(ExprOp::kNot, make_.Unary(ExprOp::kGroup, condition)),
-                    module_.jumps.Add(jump).value)},
-          true);
-      put(rest, true);
+                    module_.jumps.Add(jump).value)});
+      put(rest);
       Block place = editor_.MakeBlock(id);
       place.label = label;
       editor_.InsertBefore(id, place);
     } else {
-      put({MakeWord(WordOp::kIf, 0, condition)}, false);
-      put(rest, true);
-      put({MakeWord(WordOp::kEndIf)}, false);
+      // A structure mark carries neither a label nor a number that jumps look for.
+      const Block& head = module_.blocks[id];
+      if (head.label.Valid() || head.number != Block::kNoNumber) editor_.PutInFront(id, {});
+      put({MakeWord(WordOp::kIf, 0, condition)});
+      put(rest);
+      put({MakeWord(WordOp::kEndIf)});
     }
-    module_.blocks[id].comments = {};
-    module_.blocks[id].label = {};
-    module_.blocks[id].number = Block::kNoNumber;
     editor_.Remove(id);
   }
 

@@ -150,9 +150,7 @@ class Pass {
         words.push_back(MotionWord(at.motion));
       }
     }
-    Block changed = block;
-    editor.SetWords(changed, words);
-    module_.blocks[id].words = changed.words;
+    editor.SetWords(id, words);
     if (words.empty()) editor.Remove(id);
   }
 
@@ -176,24 +174,12 @@ class Pass {
     }
     bool start = true;
     const auto put = [&](const std::vector<Word>& words) {
-      Block made = editor.MakeBlock(id);
-      made.skip_level = block.skip_level;
-      if (start) {
-        made.number = block.number;
-        made.number_digits = block.number_digits;
-        made.label = block.label;
-        made.comments = block.comments;
-      }
       start = false;
-      editor.SetWords(made, words);
-      editor.InsertBefore(id, made);
+      editor.PutInFront(id, words, {.comments = true});
     };
     const auto finish = [&] {
       if (!last.empty()) put(last);
       if (start) put({});
-      module_.blocks[id].comments = {};
-      module_.blocks[id].label = {};
-      module_.blocks[id].number = Block::kNoNumber;
       editor.Remove(id);
     };
     // The level at which the cycle begins is read in the unit of the block.

@@ -272,8 +272,7 @@ void Fitter::DropUnused() {
         editor.Remove(id);
         continue;
       }
-      editor.SetWords(block, kept);
-      module_.blocks[id].words = block.words;
+      editor.SetWords(id, kept);
     }
     editor.Apply();
   }

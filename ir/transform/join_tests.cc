@@ -29,11 +29,8 @@ void JoinTests(Module& module, ProgramId program) {
     if (IsTarget(module.blocks[jump]) || IsTarget(module.blocks[close])) continue;
     Word joined = *leave;
     joined.value = test->value;
-    Block block = module.blocks[jump];
-    editor.SetWords(block, {joined});
-    block.indent = module.blocks[open].indent;
-    module.blocks[jump].words = block.words;
-    module.blocks[jump].indent = block.indent;
+    editor.SetWords(jump, {joined});
+    module.blocks[jump].indent = module.blocks[open].indent;
     editor.Remove(open);
     editor.Remove(close);
   }

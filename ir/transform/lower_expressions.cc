@@ -483,12 +483,7 @@ void Lowering::LowerBlock(BlockId id) {
   }
   if (statements_.empty()) return;
   // The statements take over the place that jumps go to.
-  Block& first = statements_.front();
-  first.label = block.label;
-  first.number = block.number;
-  first.number_digits = block.number_digits;
-  module_.blocks[id].label = {};
-  module_.blocks[id].number = Block::kNoNumber;
+  editor_.TakeHead(statements_.front(), id, {.skip = false});
   for (const Block& made : statements_) editor_.InsertBefore(id, made);
 }
 

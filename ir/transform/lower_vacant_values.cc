@@ -226,11 +226,7 @@ void Pass::Variants(BlockId id, ProgramEditor& editor, const std::vector<Word>& 
   const auto unsure = std::find_if(words.begin(), words.end(), [&](const Word& word) {
     return (word.flags & Word::kVanishesVacant) != 0 && ClassOf(word.value, state) == kUnsure;
   });
-  const auto put = [&](const std::vector<Word>& made_words) {
-    Block made = editor.MakeBlock(id);
-    editor.SetWords(made, made_words);
-    editor.InsertBefore(id, made);
-  };
+  const auto put = [&](const std::vector<Word>& made_words) { editor.PutInFront(id, made_words); };
   if (unsure == words.end()) {
     put(words);
     return;
@@ -334,9 +330,7 @@ void Pass::RewriteBlock(ProgramId program, BlockId id, ProgramEditor& editor) {
     words.push_back(MakeAssignment(truth, given.Valid() ? given : Truth(bits != kEmpty)));
   }
   if (unsure.empty()) {
-    Block changed = block;
-    editor.SetWords(changed, words);
-    module_.blocks[id].words = changed.words;
+    editor.SetWords(id, words);
     if (words.empty() && !block.words.Empty()) editor.Remove(id);  // nothing of it was there
     return;
   }
@@ -348,18 +342,10 @@ void Pass::RewriteBlock(ProgramId program, BlockId id, ProgramEditor& editor) {
                  "a language without empty variables");
     return;
   }
-  if (block.label.Valid() || block.number != Block::kNoNumber || !block.comments.Empty()) {
-    Block place = editor.MakeBlock(id);
-    place.number = block.number;
-    place.number_digits = block.number_digits;
-    place.label = block.label;
-    place.comments = block.comments;
-    editor.InsertBefore(id, place);
-  }
+  // A structure mark, with which the variants begin, carries no head.
+  if (block.label.Valid() || block.number != Block::kNoNumber || !block.comments.Empty())
+    editor.PutInFront(id, {}, {.comments = true});
   Variants(id, editor, words, start);
-  module_.blocks[id].comments = {};
-  module_.blocks[id].label = {};
-  module_.blocks[id].number = Block::kNoNumber;
   editor.Remove(id);
 }
 

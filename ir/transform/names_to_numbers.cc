@@ -173,19 +173,8 @@ void NameLowering::LowerDefinitions(ProgramId program, const analysis::Cfg& cfg)
       }
     }
     if (!definition) continue;
-    for (std::size_t i = 0; i < assignments.size(); ++i) {
-      Block made = editor.MakeBlock(id);
-      if (i == 0) {
-        made.comments = block.comments;
-        made.number = block.number;
-        made.number_digits = block.number_digits;
-      }
-      editor.SetWords(made, {assignments[i]});
-      editor.InsertBefore(id, made);
-    }
+    for (const Word& assignment : assignments) editor.PutInFront(id, {assignment}, {.comments = true, .skip = false});
     if (!assignments.empty()) {
-      module_.blocks[id].comments = {};
-      module_.blocks[id].number = Block::kNoNumber;
       editor.Remove(id);
     } else {
       // Only the words go: comments stay where they stood.
@@ -300,19 +289,10 @@ void NameLowering::LowerCalls(ProgramId program) {
         }
         for (std::uint32_t cell = 0; cell < count; ++cell) {
           const auto copy = [&](std::uint32_t to, std::uint32_t from) {
-            const ExprId place = make_.Cell(space_, to);
-            Block copy_block = editor.MakeBlock(id);
-            editor.SetWords(copy_block, {MakeAssignment(place, make_.Cell(space_, from))});
-            return copy_block;
+            return std::vector<Word>{MakeAssignment(make_.Cell(space_, to), make_.Cell(space_, from))};
           };
-          Block in = copy(home->cell + cell, source.cell + cell);
-          if (module_.blocks[id].number != Block::kNoNumber) {
-            in.number = block.number;
-            in.number_digits = block.number_digits;
-            module_.blocks[id].number = Block::kNoNumber;
-          }
-          editor.InsertBefore(id, in);
-          editor.InsertAfter(id, copy(source.cell + cell, home->cell + cell));
+          editor.PutInFront(id, copy(home->cell + cell, source.cell + cell));
+          editor.PutBehind(id, copy(source.cell + cell, home->cell + cell));
         }
       }
       call.args = {static_cast<std::uint32_t>(module_.args.Size()), static_cast<std::uint32_t>(args.size())};

@@ -336,12 +336,7 @@ void Naming::ShareArguments(ProgramId program, BlockId block, Call& call, Progra
     arg.value = make_.Variable(holder);
     args.push_back(arg);
   }
-  if (!words.empty()) {
-    ir::Block made = editor.MakeBlock(block);
-    made.skip_level = module_.blocks[block].skip_level;
-    editor.SetWords(made, words);
-    editor.InsertBefore(block, made);
-  }
+  if (!words.empty()) editor.PutInFront(block, words);
   call.args = {static_cast<std::uint32_t>(module_.args.Size()), static_cast<std::uint32_t>(args.size())};
   for (const Arg& arg : args) module_.args.Add(arg);
 }

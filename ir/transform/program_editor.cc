@@ -1,12 +1,22 @@
 #include "ir/transform/program_editor.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/result.h"
 #include "ir/block_words.h"
 #include "ir/structure.h"
 
 namespace ncport::ir::transform {
+
+namespace {
+
+void TakeSkipLevel(const Block& from, Block& to) {
+  to.skip_level = from.skip_level;
+  to.flags = static_cast<std::uint8_t>((to.flags & ~Block::kSkipDigit) | (from.flags & Block::kSkipDigit));
+}
+
+}  // namespace
 
 ProgramEditor::ProgramEditor(Module& module, ProgramId program, std::string_view pass)
     : module_(module), program_(program), pass_(module.strings.Intern(pass)) {}
@@ -28,6 +38,34 @@ Block ProgramEditor::MakeBlock(BlockId near) {
 }
 
 void ProgramEditor::SetWords(Block& block, const std::vector<Word>& words) { ir::SetWords(module_, block, words); }
+
+void ProgramEditor::TakeHead(Block& made, BlockId place, HeadRule rule) {
+  Block& from = module_.blocks[place];
+  made.label = std::exchange(from.label, StringId{});
+  made.number = std::exchange(from.number, Block::kNoNumber);
+  made.number_digits = std::exchange(from.number_digits, std::uint8_t{0});
+  made.flags = static_cast<std::uint8_t>((made.flags & ~Block::kMainBlock) | (from.flags & Block::kMainBlock));
+  from.flags = static_cast<std::uint8_t>(from.flags & ~Block::kMainBlock);
+  if (rule.comments) made.comments = std::exchange(from.comments, {});
+  if (rule.skip) TakeSkipLevel(from, made);
+}
+
+void ProgramEditor::PutInFront(BlockId place, const std::vector<Word>& words, HeadRule rule) {
+  Block made = MakeBlock(place);
+  made.flags = static_cast<std::uint8_t>(module_.blocks[place].flags & (Block::kAdded | Block::kRefused));
+  TakeHead(made, place, rule);
+  SetWords(made, words);
+  InsertBefore(place, made);
+}
+
+void ProgramEditor::PutBehind(BlockId place, const std::vector<Word>& words) {
+  const Block& from = module_.blocks[place];
+  Block made = MakeBlock(place);
+  made.flags = static_cast<std::uint8_t>(from.flags & (Block::kAdded | Block::kRefused));
+  TakeSkipLevel(from, made);
+  SetWords(made, words);
+  InsertAfter(place, made);
+}
 
 void ProgramEditor::Remove(BlockId place) { edits_.push_back({place, Where::kAt, {}}); }
 

@@ -9,6 +9,12 @@
 
 namespace ncport::ir::transform {
 
+/// What a block made in front of another takes over besides the marks that jumps look for.
+struct HeadRule {
+  bool comments = false;  // they move too, as from a block that is going to be removed; else they stay with its words
+  bool skip = true;       // false: it runs even where the other block is skipped (a value that both ways need)
+};
+
 class ProgramEditor {
  public:
   /// `pass`: stands in the origin of every block that the pass makes.
@@ -18,6 +24,16 @@ class ProgramEditor {
   Block MakeBlock(BlockId near);
   /// Puts `words` behind each other in the word store and gives the block their range.
   void SetWords(Block& block, const std::vector<Word>& words);
+  void SetWords(BlockId place, const std::vector<Word>& words) { SetWords(module_.blocks[place], words); }
+
+  /// Gives `made`, which is going to stand in front of `place`, the head of that block: label and block number (`:10`
+  /// stays `:10`) move, so that a jump to the block runs `made` too; the skip level is the same on both, so that a run
+  /// skips both or neither. A second block in front of the same place finds no label or number left to take.
+  void TakeHead(Block& made, BlockId place, HeadRule rule = {});
+  /// Puts a block of these words in front of `place`, with its head and, as it says the same, Block::kAdded, kRefused.
+  void PutInFront(BlockId place, const std::vector<Word>& words, HeadRule rule = {});
+  /// Puts a block of these words behind `place`: the head stays, skip level and flags are the same.
+  void PutBehind(BlockId place, const std::vector<Word>& words);
 
   /// Blocks inserted at one place keep the order of the calls.
   void InsertBefore(BlockId place, const Block& block) { edits_.push_back({place, Where::kBefore, block}); }

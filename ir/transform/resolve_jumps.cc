@@ -99,22 +99,25 @@ class Pass {
     for (const BlockId id : module_.programs[program_].blocks) {
       Block& block = module_.blocks[id];
       const auto made = made_.find(id.value);
+      const StringId label = made == made_.end() ? StringId{} : made->second;
       const bool mark = !block.words.Empty() && IsStructureMark(module_.words[block.words[0]].op);
-      const bool numbered = block.number != Block::kNoNumber && (computed_ || targets_.contains(id.value));
-      if (made != made_.end() && !mark && !block.label.Valid()) {
-        block.label = made->second;
+      const bool free_number = mark && block.number != Block::kNoNumber && (computed_ || targets_.contains(id.value));
+      if (label.Valid() && !mark && !block.label.Valid()) {
+        block.label = label;
         continue;
       }
-      if (made == made_.end() && !(mark && numbered)) continue;
-      Block place = editor.MakeBlock(id);
-      place.skip_level = block.skip_level;
-      if (made != made_.end()) place.label = made->second;
-      if (mark && numbered) {
-        place.number = block.number;
-        place.number_digits = block.number_digits;
-        module_.blocks[id].number = Block::kNoNumber;
+      if (label.Valid() && (!free_number || block.label.Valid())) {  // a block has one label
+        Block place = editor.MakeBlock(id);
+        place.skip_level = block.skip_level;
+        place.label = label;
+        editor.InsertBefore(id, place);
       }
-      editor.InsertBefore(id, place);
+      if (free_number) {
+        Block head = editor.MakeBlock(id);
+        editor.TakeHead(head, id);
+        if (!head.label.Valid()) head.label = label;
+        editor.InsertBefore(id, head);
+      }
     }
     editor.Apply();
   }

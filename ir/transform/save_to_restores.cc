@@ -246,20 +246,14 @@ class Pass {
       MarkPath(back, words);
       editor.SetWords(back, words);
       if (rest.empty()) {
-        back.label = block.label;
-        back.number = block.number;
-        back.number_digits = block.number_digits;
-        module_.blocks[id].label = {};
-        module_.blocks[id].number = Block::kNoNumber;
+        editor.TakeHead(back, id);
         editor.InsertBefore(id, back);
         continue;
       }
       Block leave = editor.MakeBlock(id);
       leave.skip_level = block.skip_level;
       editor.SetWords(leave, returns);
-      Block changed = block;
-      editor.SetWords(changed, rest);
-      module_.blocks[id].words = changed.words;
+      editor.SetWords(id, rest);
       editor.InsertAfter(id, back);
       editor.InsertAfter(id, leave);
     }

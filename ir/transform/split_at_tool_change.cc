@@ -372,9 +372,7 @@ void Pass::Split(ProgramId program, BlockId at) {
   ProgramEditor editor(module_, program, "split_at_tool_change");
   Word ret = MakeWord(WordOp::kReturn, ReturnKind::kPlain);
   Block end = editor.MakeBlock(at);
-  end.label = tool.label;
-  end.number = tool.number;
-  end.number_digits = tool.number_digits;
+  editor.TakeHead(end, at);
   editor.SetWords(end, {ret});
   IdRange<BlockId> cut{static_cast<std::uint32_t>(module_.blocks.Size()), head.count + 1};
   for (const BlockId id : head) {

@@ -112,22 +112,7 @@ void SplitStatements(Module& module, ProgramId program) {
     if (!nc.empty()) statements.push_back(nc);
     for (const Word& word : flow) statements.push_back({word});
     if (!last.empty()) statements.push_back(last);
-    for (std::size_t i = 0; i < statements.size(); ++i) {
-      Block made = editor.MakeBlock(id);
-      made.skip_level = block.skip_level;
-      made.flags = block.flags;
-      if (i == 0) {
-        made.number = block.number;
-        made.number_digits = block.number_digits;
-        made.label = block.label;
-        made.comments = block.comments;
-      }
-      editor.SetWords(made, statements[i]);
-      editor.InsertBefore(id, made);
-    }
-    module.blocks[id].comments = {};
-    module.blocks[id].label = {};
-    module.blocks[id].number = Block::kNoNumber;
+    for (const std::vector<Word>& statement : statements) editor.PutInFront(id, statement, {.comments = true});
     editor.Remove(id);
   }
   editor.Apply();

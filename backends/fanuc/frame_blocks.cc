@@ -11,6 +11,7 @@
 #include "backends/fanuc/tool_words.h"
 #include "dialects/fanuc/words.h"
 #include "ir/analysis/flow_analyses.h"
+#include "ir/block_words.h"
 #include "ir/builder.h"
 #include "ir/make_word.h"
 #include "ir/transform/linear_form.h"
@@ -38,6 +39,15 @@ Block AddedBlock(Module& module, ProgramEditor& editor, BlockId near, std::strin
   word.flags = Word::kAdded;
   editor.SetWords(block, {word});
   return block;
+}
+
+/// Lines in front of `at`: a jump to that block runs them, and where it is skipped they are.
+void PutLinesInFront(Module& module, ProgramEditor& editor, BlockId at, const std::vector<std::string>& lines) {
+  for (const std::string& line : lines) {
+    Block made = AddedBlock(module, editor, at, line);
+    editor.TakeHead(made, at);
+    editor.InsertBefore(at, made);
+  }
 }
 
 bool HoldsWords(const Module& module, BlockId id) { return !module.blocks[id].words.Empty(); }
@@ -213,17 +223,13 @@ void FrameMainPrograms(const RaiseInput& input, Translation& out) {
     main = true;
     ProgramEditor editor(module, program, "frame");
     const IdRange<BlockId> blocks = module.programs[program].blocks;
-    BlockId first, end;
+    bool any = false;
     for (const BlockId id : blocks) {
-      if (!first.Valid() && HoldsWords(module, id)) first = id;
-      for (const ir::WordId word : module.blocks[id].words) {
-        if (module.words[word].op == WordOp::kProgramEnd) end = id;
+      // A jump back to the first block of the source does not run the head again.
+      if (HoldsWords(module, id) && !std::exchange(any, true)) {
+        for (const std::string& line : head) editor.InsertBefore(id, AddedBlock(module, editor, id, line));
       }
-    }
-    if (!first.Valid()) continue;
-    for (const std::string& line : head) editor.InsertBefore(first, AddedBlock(module, editor, first, line));
-    if (end.Valid()) {
-      for (const std::string& line : footer) editor.InsertBefore(end, AddedBlock(module, editor, end, line));
+      if (ir::HasWord(module, module.blocks[id], WordOp::kProgramEnd)) PutLinesInFront(module, editor, id, footer);
     }
     editor.Apply();
   }
@@ -281,6 +287,33 @@ BlockId CutFromHome(const Module& module, const ir::analysis::Cfg& graph, BlockI
   return {};
 }
 
+/// Blocks of a main program at which the axes may have left the place where its head put them: behind a move, a call or
+/// another tool change, on any way.
+std::set<BlockId> AwayFromHome(const Module& module, const ir::analysis::Cfg& graph) {
+  std::set<BlockId> away;
+  std::vector<BlockId> work;
+  const auto go_on = [&](BlockId from) {
+    for (const ir::analysis::Edge& edge : graph.Successors(from)) {
+      if (edge.to.Valid() && away.insert(edge.to).second) work.push_back(edge.to);
+    }
+  };
+  for (const BlockId id : graph.Blocks()) {
+    bool leaves = IsToolChange(module, id);
+    for (const ir::WordId word_id : module.blocks[id].words) {
+      const WordOp op = module.words[word_id].op;
+      leaves = leaves || op == WordOp::kAxis || op == WordOp::kCenter || op == WordOp::kReference ||
+               op == WordOp::kCall || op == WordOp::kModalCall;
+    }
+    if (leaves) go_on(id);
+  }
+  while (!work.empty()) {
+    const BlockId id = work.back();
+    work.pop_back();
+    go_on(id);
+  }
+  return away;
+}
+
 }  // namespace
 
 bool FrameToolChanges(const RaiseInput& input, Translation& out, diag::Sink& sink) {
@@ -303,11 +336,12 @@ bool FrameToolChanges(const RaiseInput& input, Translation& out, diag::Sink& sin
   const ir::analysis::FlowGraphs graphs(module);
   for (const ir::ProgramId program : module.programs.Ids()) {
     ProgramEditor editor(module, program, "frame");
-    bool first = module.programs[program].kind == ir::ProgramKind::kMain;
+    const bool main = module.programs[program].kind == ir::ProgramKind::kMain;
+    const std::set<BlockId> away = main ? AwayFromHome(module, graphs.Of(program)) : std::set<BlockId>{};
     for (const BlockId id : module.programs[program].blocks) {
       if (!IsToolChange(module, id)) continue;
-      if (!std::exchange(first, false)) {
-        for (const std::string& line : home) editor.InsertBefore(id, AddedBlock(module, editor, id, line));
+      if (!main || away.contains(id)) {
+        PutLinesInFront(module, editor, id, home);
         any = true;
         const BlockId cut = home.empty() ? BlockId{} : CutFromHome(module, graphs.Of(program), id);
         if (cut.Valid()) {
@@ -317,7 +351,11 @@ bool FrameToolChanges(const RaiseInput& input, Translation& out, diag::Sink& sin
               .help = "the tool comes from its change position: move both axes to the work first";
         }
       }
-      for (const std::string& line : behind) editor.InsertAfter(id, AddedBlock(module, editor, id, line));
+      for (const std::string& line : behind) {
+        Block made = AddedBlock(module, editor, id, line);
+        made.skip_level = module.blocks[id].skip_level;
+        editor.InsertAfter(id, made);
+      }
     }
     editor.Apply();
   }

@@ -8,10 +8,10 @@ namespace ncport::backends::fanuc {
 
 /// What the profile must answer before blocks can be framed; each open answer is a finding with the line to add.
 bool NeedFrame(const RaiseInput& input, diag::Sink& sink);
-/// Head and end of main programs: every modal group that a program can rely on is written.
+/// Head and ends of main programs: every modal group that a program can rely on is written.
 void FrameMainPrograms(const RaiseInput& input, Translation& out);
-/// Machines whose tools change at a position: the way there in front of each tool call but the first; behind each what
-/// the change undoes. A cut behind one before X and Z were both named again is a finding (NC6001): it would start
+/// Machines whose tools change at a position: the way there in front of each tool call, but where the head alone lies
+/// before it on every way; behind each what the change undoes. A cut behind one before X and Z were both named again is a finding (NC6001): it would start
 /// there.
 bool FrameToolChanges(const RaiseInput& input, Translation& out, diag::Sink& sink);
 /// Alarm when a letter that the macro needs is missing: the source takes 0 there, the target nothing (hazards#6).

@@ -202,16 +202,21 @@ void RotationsToNative(const RaiseInput& input, Translation& out) {
   for (const BlockId id : module.programs[holder].blocks) {
     const Block block = module.blocks[id];
     const FrameState before = flows.frames.Before(id);
-    // What goes in front of the block, one block each.
-    std::vector<std::vector<Word>> pieces;
     if (head && !block.words.Empty()) {
       head = false;
+      // Once: a jump back to the block does not run it again.
+      const auto put = [&](const Word& word, std::uint8_t flags) {
+        Block made = editor.MakeBlock(id);
+        made.flags = flags;
+        editor.SetWords(made, {word});
+        editor.InsertBefore(id, made);
+      };
       Word off = FrameOf(FrameOp::kRotateEnd);
       off.flags = Word::kAdded;
-      pieces.push_back({off});  // nothing is taken over from the program before
-      if (held_angle) pieces.push_back({Assignment(angle, make.Literal(0))});
+      put(off, Block::kAdded);  // nothing is taken over from the program before
+      if (held_angle) put(Assignment(angle, make.Literal(0)), 0);
       for (const ExprId each : shift) {
-        if (each.Valid()) pieces.push_back({Assignment(each, make.Literal(0))});
+        if (each.Valid()) put(Assignment(each, make.Literal(0)), 0);
       }
     }
     const auto local_shift = [&](const std::array<ExprId, 3>& values) {
@@ -228,21 +233,17 @@ void RotationsToNative(const RaiseInput& input, Translation& out) {
         ends.push_back({FrameOf(FrameOp::kRotateEnd)});
         ends.push_back(local_shift({}));
       }
-      for (const std::vector<Word>& words : pieces) {
-        Block made = editor.MakeBlock(id);
-        if ((words[0].flags & Word::kAdded) != 0) made.flags = Block::kAdded;
-        editor.SetWords(made, words);
-        editor.InsertBefore(id, made);
-      }
       for (std::vector<Word>& words : ends) {
         words[0].flags = Word::kAdded;
         Block made = editor.MakeBlock(id);
         made.flags = Block::kAdded;
+        editor.TakeHead(made, id);
         editor.SetWords(made, words);
         editor.InsertBefore(id, made);
       }
       continue;
     }
+    std::vector<std::vector<Word>> pieces;  // of what becomes of the block, one block each
     const FrameOp op = OpOf(*found);
     const FrameState after = flows.frames.After(holder, id);
     Values values = *ValuesOf(module, block, op);

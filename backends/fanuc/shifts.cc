@@ -187,6 +187,7 @@ bool ShiftsToLocal(const RaiseInput& input, Translation& out, diag::Sink& sink) 
         }
         Block reset = editor.MakeBlock(id);
         reset.flags = Block::kAdded;
+        editor.TakeHead(reset, id);
         editor.SetWords(reset, words);
         editor.InsertBefore(id, reset);
         continue;

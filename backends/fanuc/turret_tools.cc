@@ -197,6 +197,7 @@ bool MapTurretTools(const RaiseInput& input, Translation& out, diag::Sink& sink)
       if (lathe && work_offset.known && work_offset.number != 0 && tool != nullptr) {
         Block again = editor.MakeBlock(id);
         again.flags = Block::kAdded;
+        again.skip_level = block.skip_level;
         editor.SetWords(again, {ir::MakeWord(WordOp::kWorkOffset, 0, {}, work_offset.number)});
         editor.InsertBefore(id, again);
       }

@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 
+#include "frontend/common/block_parser.h"
 #include "frontend/common/token.h"
 
 namespace ncport::frontend {
@@ -98,6 +99,35 @@ class ParseSession {
   antlr4::CommonTokenStream stream_;
   std::shared_ptr<FirstErrorStrategy> strategy_;
   Parser parser_;
+};
+
+/// The way of a block to its recipe. A language says how a tree is compiled and how a finding is put.
+template <class Parser>
+class GrammarParser : public BlockParser {
+ public:
+  Recipe Parse(std::span<const Token> tokens) final {
+    Recipe recipe;
+    if (auto* block = session_.Parse(tokens)) {
+      Compile(*block, recipe);
+      return recipe;
+    }
+    const FirstErrorStrategy& strategy = session_.Strategy();
+    recipe.failed = true;
+    recipe.error.token = static_cast<std::uint16_t>(strategy.ErrorToken());
+    recipe.error.expected = NameOfKind(strategy.OnlyExpected());
+    recipe.error.code = recipe.error.expected != nullptr ? diag::Code::kExpectedText : diag::Code::kUnexpectedText;
+    Explain(tokens, strategy.OnlyExpected(), recipe.error);
+    return recipe;
+  }
+
+ private:
+  virtual void Compile(typename Parser::BlockContext& block, Recipe& recipe) = 0;
+  /// What a person would call the only kind that fits (0 = several do); null: the finding names what stands there.
+  virtual const char* NameOfKind(std::size_t /*kind*/) const { return nullptr; }
+  /// Says more of a mistake: another code or place, what helps. `expected`: the only kind that would have fitted.
+  virtual void Explain(std::span<const Token> /*tokens*/, std::size_t /*expected*/, ShapeError& /*error*/) const {}
+
+  ParseSession<Parser> session_;
 };
 
 }  // namespace ncport::frontend

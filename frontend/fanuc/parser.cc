@@ -15,15 +15,15 @@ using Parser = grammar::fanuc::FanucParser;
                 "token_kinds.def and the grammar differ at " #Name);
 #include "frontend/fanuc/token_kinds.def"
 
-struct BlockParser::Session : ParseSession<Parser> {};
-
-BlockParser::BlockParser() = default;
-BlockParser::~BlockParser() = default;
-
 namespace {
 
-// What a person would call the only kind that fits.
-const char* NameOfKind(std::size_t kind) {
+class FanucBlocks final : public GrammarParser<Parser> {
+  void Compile(Parser::BlockContext& block, Recipe& recipe) override { CompileBlock(block, recipe); }
+  const char* NameOfKind(std::size_t kind) const override;
+  void Explain(std::span<const Token> tokens, std::size_t expected, ShapeError& error) const override;
+};
+
+const char* FanucBlocks::NameOfKind(std::size_t kind) const {
   switch (static_cast<TokenKind>(kind)) {
     case TokenKind::kEquals:
       return "=";
@@ -42,39 +42,27 @@ const char* NameOfKind(std::size_t kind) {
   }
 }
 
+void FanucBlocks::Explain(std::span<const Token> tokens, std::size_t /*expected*/, ShapeError& error) const {
+  if (error.token >= tokens.size()) return;
+  switch (static_cast<TokenKind>(tokens[error.token].kind)) {
+    case TokenKind::kBlockNumber:
+      error.help = "the block number stands at the start of the block";
+      break;
+    case TokenKind::kEqualTo:
+    case TokenKind::kNotEqual:
+    case TokenKind::kLess:
+    case TokenKind::kLessEqual:
+    case TokenKind::kGreater:
+    case TokenKind::kGreaterEqual:
+      error.help = "one comparison a pair of brackets";
+      break;
+    default:
+      break;
+  }
+}
+
 }  // namespace
 
-Recipe BlockParser::Parse(std::span<const Token> tokens) {
-  if (session_ == nullptr) session_ = std::make_unique<Session>();
-  Recipe recipe;
-  auto* block = session_->Parse(tokens);
-  if (block == nullptr) {
-    recipe.failed = true;
-    const FirstErrorStrategy& strategy = session_->Strategy();
-    recipe.error.token = static_cast<std::uint16_t>(strategy.ErrorToken());
-    recipe.error.expected = NameOfKind(strategy.OnlyExpected());
-    recipe.error.code = recipe.error.expected != nullptr ? diag::Code::kExpectedText : diag::Code::kUnexpectedText;
-    if (recipe.error.token < tokens.size()) {
-      switch (static_cast<TokenKind>(tokens[recipe.error.token].kind)) {
-        case TokenKind::kBlockNumber:
-          recipe.error.help = "the block number stands at the start of the block";
-          break;
-        case TokenKind::kEqualTo:
-        case TokenKind::kNotEqual:
-        case TokenKind::kLess:
-        case TokenKind::kLessEqual:
-        case TokenKind::kGreater:
-        case TokenKind::kGreaterEqual:
-          recipe.error.help = "one comparison a pair of brackets";
-          break;
-        default:
-          break;
-      }
-    }
-    return recipe;
-  }
-  CompileBlock(*block, recipe);
-  return recipe;
-}
+std::unique_ptr<BlockParser> MakeParser() { return std::make_unique<FanucBlocks>(); }
 
 }  // namespace ncport::frontend::fanuc

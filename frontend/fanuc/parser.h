@@ -1,27 +1,12 @@
-// The generated parser of Fanuc blocks, and its trees as recipes.
 #pragma once
 
 #include <memory>
-#include <span>
 
-#include "frontend/common/shape_cache.h"
-#include "frontend/common/token.h"
+#include "frontend/common/block_parser.h"
 
 namespace ncport::frontend::fanuc {
 
-class BlockParser {
- public:
-  BlockParser();
-  BlockParser(const BlockParser&) = delete;
-  BlockParser& operator=(const BlockParser&) = delete;
-  ~BlockParser();
-
-  /// Recipe of the block with these token kinds.
-  Recipe Parse(std::span<const Token> tokens);
-
- private:
-  struct Session;
-  std::unique_ptr<Session> session_;
-};
+/// The generated parser of Fanuc blocks.
+std::unique_ptr<BlockParser> MakeParser();
 
 }  // namespace ncport::frontend::fanuc

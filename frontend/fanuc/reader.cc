@@ -88,7 +88,7 @@ class Reader {
         sink_(sink),
         source_(module.strings, profile.fanuc.expression_without_brackets.Or(false)),
         lowering_(module, profile, system, state_),
-        recipes_(options.shape_cache),
+        recipes_(MakeParser, options.shape_cache),
         blocks_(files, file, module) {}
 
   void Read() {
@@ -267,7 +267,7 @@ class Reader {
   ReaderState state_;
   TokenSource source_;
   Lowering lowering_;
-  RecipeSource<BlockParser> recipes_;
+  RecipeSource recipes_;
   BlockSink blocks_;
   LineError error_;
   std::string help_;  // of error_

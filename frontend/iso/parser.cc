@@ -14,11 +14,6 @@ using Parser = grammar::iso::IsoParser;
                 "token_kinds.def and the grammar differ at " #Name);
 #include "frontend/iso/token_kinds.def"
 
-struct BlockParser::Session : ParseSession<Parser> {};
-
-BlockParser::BlockParser() = default;
-BlockParser::~BlockParser() = default;
-
 namespace {
 
 void AddAction(Recipe& recipe, antlr4::ParserRuleContext& rule, antlr4::Token* first) {
@@ -28,26 +23,20 @@ void AddAction(Recipe& recipe, antlr4::ParserRuleContext& rule, antlr4::Token* f
                             static_cast<std::uint16_t>(last->getTokenIndex())});
 }
 
+class FlatBlocks final : public GrammarParser<Parser> {
+  void Compile(Parser::BlockContext& block, Recipe& recipe) override {
+    Parser::StatementContext* statement = block.statement();
+    if (statement == nullptr) return;
+    if (statement->word().empty()) {
+      AddAction(recipe, *statement, statement->getStart());
+    } else {
+      for (Parser::WordContext* word : statement->word()) AddAction(recipe, *word, word->getStart());
+    }
+  }
+};
+
 }  // namespace
 
-Recipe BlockParser::Parse(std::span<const Token> tokens) {
-  if (session_ == nullptr) session_ = std::make_unique<Session>();
-  Recipe recipe;
-  Parser::BlockContext* block = session_->Parse(tokens);
-  if (block == nullptr) {
-    recipe.failed = true;
-    recipe.error.token = static_cast<std::uint16_t>(session_->Strategy().ErrorToken());
-    recipe.error.code = diag::Code::kUnexpectedText;
-    return recipe;
-  }
-  Parser::StatementContext* statement = block->statement();
-  if (statement == nullptr) return recipe;
-  if (statement->word().empty()) {
-    AddAction(recipe, *statement, statement->getStart());
-  } else {
-    for (Parser::WordContext* word : statement->word()) AddAction(recipe, *word, word->getStart());
-  }
-  return recipe;
-}
+std::unique_ptr<BlockParser> MakeParser() { return std::make_unique<FlatBlocks>(); }
 
 }  // namespace ncport::frontend::iso

@@ -36,7 +36,7 @@ class Reader {
         sink_(sink),
         source_(profile),
         lowering_(module, profile),
-        recipes_(options.shape_cache),
+        recipes_(MakeParser, options.shape_cache),
         blocks_(files, file, module) {}
 
   void Read() {
@@ -135,7 +135,7 @@ class Reader {
   diag::Sink& sink_;
   TokenSource source_;
   Lowering lowering_;
-  RecipeSource<BlockParser> recipes_;
+  RecipeSource recipes_;
   BlockSink blocks_;
   LineError error_;
 };

@@ -15,15 +15,15 @@ using Parser = grammar::sinumerik::SinumerikParser;
                 "token_kinds.def and the grammar differ at " #Name);
 #include "frontend/sinumerik/token_kinds.def"
 
-struct BlockParser::Session : ParseSession<Parser> {};
-
-BlockParser::BlockParser() = default;
-BlockParser::~BlockParser() = default;
-
 namespace {
 
-// What a person would call the only kind that fits.
-const char* NameOfKind(std::size_t kind) {
+class SinumerikBlocks final : public GrammarParser<Parser> {
+  void Compile(Parser::BlockContext& block, Recipe& recipe) override { CompileBlock(block, recipe); }
+  const char* NameOfKind(std::size_t kind) const override;
+  void Explain(std::span<const Token> tokens, std::size_t expected, ShapeError& error) const override;
+};
+
+const char* SinumerikBlocks::NameOfKind(std::size_t kind) const {
   switch (static_cast<TokenKind>(kind)) {
     case TokenKind::kEquals:
       return "=";
@@ -65,46 +65,34 @@ bool IsReserved(TokenKind kind) {
   }
 }
 
+void SinumerikBlocks::Explain(std::span<const Token> tokens, std::size_t expected, ShapeError& error) const {
+  const auto kind_at = [&](std::size_t token) {
+    return token < tokens.size() ? static_cast<TokenKind>(tokens[token].kind) : TokenKind::kNone;
+  };
+  const std::size_t at = error.token;
+  // A name in the middle of a block that no `=` follows is a call that does not stand alone, or a word nobody knows.
+  const bool call_before = at > 0 && expected == Parser::Equals && kind_at(at - 1) == TokenKind::kName;
+  if (call_before || kind_at(at) == TokenKind::kSubName) {
+    error.code = diag::Code::kNotAlone;
+    error.token = static_cast<std::uint16_t>(call_before ? at - 1 : at);
+    error.expected = nullptr;
+    error.help = "a subprogram call has a block of its own; a variable is set with =";
+  } else if (expected == Parser::Name && IsReserved(kind_at(at))) {
+    error.code = diag::Code::kReservedName;
+    const bool second_type = kind_at(at) == TokenKind::kType && at > 0 && kind_at(at - 1) == TokenKind::kComma;
+    if (second_type && kind_at(0) == TokenKind::kDef)
+      error.help = "a DEF names one type: the next one begins a DEF of its own";
+  } else if (expected == Parser::Equals && at > 0 && at >= tokens.size() && kind_at(at - 1) == TokenKind::kAxis) {
+    error.code = diag::Code::kMissingValue;
+    error.token = static_cast<std::uint16_t>(at - 1);
+    error.expected = nullptr;
+  } else if (kind_at(at) == TokenKind::kBlockNumber) {
+    error.help = "the block number stands at the start of the block";
+  }
+}
+
 }  // namespace
 
-Recipe BlockParser::Parse(std::span<const Token> tokens) {
-  if (session_ == nullptr) session_ = std::make_unique<Session>();
-  Recipe recipe;
-  auto* block = session_->Parse(tokens);
-  if (block == nullptr) {
-    recipe.failed = true;
-    const FirstErrorStrategy& strategy = session_->Strategy();
-    recipe.error.token = static_cast<std::uint16_t>(strategy.ErrorToken());
-    recipe.error.expected = NameOfKind(strategy.OnlyExpected());
-    recipe.error.code = recipe.error.expected != nullptr ? diag::Code::kExpectedText : diag::Code::kUnexpectedText;
-    // A name in the middle of a block that no `=` follows is a call that does not stand alone, or a word nobody knows.
-    const auto kind_at = [&](std::size_t token) {
-      return token < tokens.size() ? static_cast<TokenKind>(tokens[token].kind) : TokenKind::kNone;
-    };
-    const std::size_t at = recipe.error.token;
-    const bool call_before = at > 0 && strategy.OnlyExpected() == Parser::Equals && kind_at(at - 1) == TokenKind::kName;
-    if (call_before || kind_at(at) == TokenKind::kSubName) {
-      recipe.error.code = diag::Code::kNotAlone;
-      recipe.error.token = static_cast<std::uint16_t>(call_before ? at - 1 : at);
-      recipe.error.expected = nullptr;
-      recipe.error.help = "a subprogram call has a block of its own; a variable is set with =";
-    } else if (strategy.OnlyExpected() == Parser::Name && IsReserved(kind_at(at))) {
-      recipe.error.code = diag::Code::kReservedName;
-      const bool second_type = kind_at(at) == TokenKind::kType && at > 0 && kind_at(at - 1) == TokenKind::kComma;
-      if (second_type && kind_at(0) == TokenKind::kDef)
-        recipe.error.help = "a DEF names one type: the next one begins a DEF of its own";
-    } else if (strategy.OnlyExpected() == Parser::Equals && at > 0 && at >= tokens.size() &&
-               kind_at(at - 1) == TokenKind::kAxis) {
-      recipe.error.code = diag::Code::kMissingValue;
-      recipe.error.token = static_cast<std::uint16_t>(at - 1);
-      recipe.error.expected = nullptr;
-    } else if (kind_at(at) == TokenKind::kBlockNumber) {
-      recipe.error.help = "the block number stands at the start of the block";
-    }
-    return recipe;
-  }
-  CompileBlock(*block, recipe);
-  return recipe;
-}
+std::unique_ptr<BlockParser> MakeParser() { return std::make_unique<SinumerikBlocks>(); }
 
 }  // namespace ncport::frontend::sinumerik

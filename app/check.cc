@@ -13,6 +13,7 @@
 #include "app/pipeline.h"
 #include "app/value_rule_options.h"
 #include "backends/translate.h"
+#include "base/letter_case.h"
 #include "check/rules.h"
 #include "check/structure_rules.h"
 #include "check/value_rules.h"
@@ -60,7 +61,7 @@ using Ignores = std::multimap<std::pair<std::uint32_t, std::uint32_t>, Ignore>;
 
 /// Where the mark begins in `text`, in any case: some controls have capital letters only. npos: nowhere.
 std::size_t FindMark(std::string_view text) {
-  const auto same = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b; };
+  const auto same = [](char a, char b) { return Lower(a) == b; };
   const auto found = std::search(text.begin(), text.end(), kIgnoreMark.begin(), kIgnoreMark.end(), same);
   return found == text.end() ? std::string_view::npos : static_cast<std::size_t>(found - text.begin());
 }

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <cctype>
 #include <cmath>
 #include <numbers>
 
+#include "base/letter_case.h"
 #include "ir/axis_names.h"
 
 namespace ncport::app {
@@ -143,9 +143,7 @@ std::vector<ReportEnvelope> Envelopes::Result(const SourceFiles& files, const di
       shown.high = tool.high[axis];
       // Whether a limit of the transverse axis is a radius or a diameter is not said anywhere: it is not compared.
       if (axis == transverse_axis_) continue;
-      std::string key = shown.name;
-      for (char& c : key) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-      if (const dialects::Limit* limit = limit_of(key)) {
+      if (const dialects::Limit* limit = limit_of(LowerOf(shown.name))) {
         shown.low_limit = limit->least;
         shown.high_limit = limit->most;
       }

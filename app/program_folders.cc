@@ -11,22 +11,16 @@
 #include <filesystem>
 #include <system_error>
 
+#include "base/letter_case.h"
+
 namespace ncport::app {
 namespace {
-
-std::string Lower(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return lower;
-}
 
 /// The name of a program without path and marks, lower case.
 std::string PlainName(std::string_view program) {
   const std::size_t slash = program.rfind('/');
   if (slash != std::string_view::npos) program.remove_prefix(slash + 1);
-  std::string name = Lower(program);
+  std::string name = LowerOf(program);
   if (name.starts_with("_n_")) name.erase(0, 3);
   if (name.ends_with("_spf") || name.ends_with("_mpf") || name.ends_with(".spf") || name.ends_with(".mpf"))
     name.resize(name.size() - 4);
@@ -60,7 +54,7 @@ void ProgramFolders::ReadFolders() {
       std::string name = it->path().filename().string();
       // Two names that differ in case only: the first in the order of characters, so that a run does not depend on the
       // disk.
-      const std::string lower = Lower(name);
+      const std::string lower = LowerOf(name);
       if (const auto number = NumberOf(lower)) {
         // Two files of one number: the shorter name is the plainer one, then the order of characters decides.
         const auto [known, fresh] = numbers.emplace(*number, name);

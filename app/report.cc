@@ -1,17 +1,15 @@
 // What both forms of the report share.
 #include "app/report.h"
 
-#include <cctype>
-
 #include "base/diag/place.h"
+#include "base/letter_case.h"
 
 namespace ncport::app {
 
 std::optional<ReportForm> ReportFormOf(std::string_view file_name) {
   const std::size_t dot = file_name.rfind('.');
   if (dot == std::string_view::npos) return std::nullopt;
-  std::string ending(file_name.substr(dot + 1));
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string ending = LowerOf(file_name.substr(dot + 1));
   if (ending == "json") return ReportForm::kJson;
   if (ending == "html" || ending == "htm") return ReportForm::kHtml;
   return std::nullopt;

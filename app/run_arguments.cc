@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/letter_case.h"
 #include "base/number_text.h"
 #include "dialects/argument_letters.h"
 #include "ir/axis_names.h"
@@ -13,14 +14,8 @@
 namespace ncport::app {
 namespace {
 
-char Upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
-
 bool Same(std::string_view a, std::string_view b, bool ignore_case) {
-  if (a.size() != b.size()) return false;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    if (ignore_case ? Upper(a[i]) != Upper(b[i]) : a[i] != b[i]) return false;
-  }
-  return true;
+  return ignore_case ? EqualIgnoringCase(a, b) : a == b;
 }
 
 std::string_view Trim(std::string_view text) {

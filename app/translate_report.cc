@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <set>
 
 #include "app/source_hash.h"
 #include "app/translation_header.h"
+#include "base/letter_case.h"
 
 namespace ncport::app {
 namespace {
@@ -48,11 +48,7 @@ void AddCells(const TranslateReportInput& input, Report& report) {
     parameter.source = cell.source;
     for (const dialects::ValueRange& range : input.config.ranges) {
       const std::string_view name = std::string_view(range.name).substr(std::string_view(range.name).rfind('.') + 1);
-      const bool same =
-          std::equal(name.begin(), name.end(), cell.source.begin(), cell.source.end(), [](char a, char b) {
-            return std::toupper(static_cast<unsigned char>(a)) == std::toupper(static_cast<unsigned char>(b));
-          });
-      if (!same) continue;
+      if (!EqualIgnoringCase(name, cell.source)) continue;
       parameter.low = RangeEnd(range.least, range.least_of);
       parameter.high = RangeEnd(range.most, range.most_of);
     }

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstdint>
 #include <set>
 
 #include "app/source_hash.h"
+#include "base/letter_case.h"
 
 namespace ncport::app {
 namespace {
@@ -29,10 +29,8 @@ std::string RangeOfInput(const std::vector<prove::Input>& inputs, std::string_vi
                          std::string_view parameter) {
   const std::string name = fmt::format("{}.{}", program, parameter);
   for (const prove::Input& input : inputs) {
-    const bool same = std::equal(input.name.begin(), input.name.end(), name.begin(), name.end(), [](char a, char b) {
-      return std::toupper(static_cast<unsigned char>(a)) == std::toupper(static_cast<unsigned char>(b));
-    });
-    if (same && input.low && input.high) return fmt::format(" {:g} TO {:g}", *input.low, *input.high);
+    if (EqualIgnoringCase(input.name, name) && input.low && input.high)
+      return fmt::format(" {:g} TO {:g}", *input.low, *input.high);
   }
   return {};
 }

@@ -3,24 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <string>
 #include <string_view>
 
+#include "base/letter_case.h"
 #include "dialects/finding_alarms.h"
 #include "dialects/language.h"
 
 namespace ncport::app {
-
-namespace {
-
-bool SameName(std::string_view a, std::string_view b) {
-  return std::ranges::equal(a, b, [](char x, char y) {
-    return std::toupper(static_cast<unsigned char>(x)) == std::toupper(static_cast<unsigned char>(y));
-  });
-}
-
-}  // namespace
 
 check::ValueRuleOptions ValueRuleOptionsFor(const Context& context, const ProgramSet& set,
                                             const dialects::Config* config) {
@@ -35,7 +25,7 @@ check::ValueRuleOptions ValueRuleOptionsFor(const Context& context, const Progra
       const std::string name = fmt::format("{}.{}", set.module.View(set.module.programs[program].name),
                                            set.module.View(set.module.variables[parameter].name));
       for (const dialects::ValueRange& range : config->ranges) {
-        if (SameName(range.name, name)) options.declared.push_back({parameter, range.least, range.most});
+        if (EqualIgnoringCase(range.name, name)) options.declared.push_back({parameter, range.least, range.most});
       }
     }
   }

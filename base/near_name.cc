@@ -4,12 +4,12 @@
 #include <array>
 #include <cstddef>
 
+#include "base/letter_case.h"
+
 namespace ncport {
 namespace {
 
 constexpr std::size_t kMaxLength = 64;
-
-char Lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 /// Edit distance with swaps of neighbours; three rows are enough.
 std::size_t Distance(std::string_view a, std::string_view b) {

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
-#include <cctype>
 #include <string>
 
+#include "base/letter_case.h"
 #include "check/rules.h"
 
 namespace ncport::check {
@@ -30,8 +30,7 @@ void ReportDifference(const ir::Module& module, const ir::Extern& declared, cons
                       here.dimension_count == there.dimension_count;
     if (same) continue;
     const auto text = [](ir::Type type, bool by_reference, std::uint8_t dimensions) {
-      std::string name(ir::NameOf(type));
-      for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+      const std::string name = UpperOf(ir::NameOf(type));
       return fmt::format("{}{}{}", by_reference ? "VAR " : "", name, dimensions != 0 ? "[]" : "");
     };
     point_at_header(sink.Report(

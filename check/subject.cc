@@ -3,13 +3,12 @@
 #include <string>
 #include <string_view>
 
+#include "base/letter_case.h"
 #include "base/near_name.h"
 #include "dialects/machine.h"
 
 namespace ncport::check {
 namespace {
-
-char Upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 
 bool IsNameCharacter(char c) { return (Upper(c) >= 'A' && Upper(c) <= 'Z') || (c >= '0' && c <= '9') || c == '_'; }
 

@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/letter_case.h"
 #include "check/structure_rules.h"
 
 namespace ncport::check {
@@ -39,18 +40,12 @@ bool DoesSomething(const ir::Module& module, const ir::Block& block) {
   return false;
 }
 
-std::string Upper(std::string_view text) {
-  std::string upper(text);
-  for (char& c : upper) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  return upper;
-}
-
 /// Names in texts that calls get, in upper case: "CON_A:CON_E" hands a cycle the blocks between two labels.
 std::set<std::string> NamesInTexts(const ir::Module& module) {
   std::set<std::string> names;
   for (const ir::Arg& arg : module.args.All()) {
     if (!arg.value.Valid() || module.exprs[arg.value].op != ir::ExprOp::kText) continue;
-    const std::string text = Upper(module.View(StringId{std::size_t{module.exprs[arg.value].a}}));
+    const std::string text = UpperOf(module.View(StringId{std::size_t{module.exprs[arg.value].a}}));
     for (std::size_t begin = 0; begin <= text.size();) {
       const std::size_t end = std::min(text.find(':', begin), text.size());
       names.insert(text.substr(begin, end - begin));
@@ -85,7 +80,7 @@ void CheckUnreachable(const ir::Module& module, ir::ProgramId program, const ir:
       // A refused block has its finding, and what it would do is not known.
       if (!first.Valid() && !block.words.Empty() && DoesSomething(module, block)) first = blocks[last];
       const bool named = block.label.Valid() || block.number != ir::Block::kNoNumber;
-      unclear = unclear || (block.label.Valid() && named_in_texts.contains(Upper(module.View(block.label))));
+      unclear = unclear || (block.label.Valid() && named_in_texts.contains(UpperOf(module.View(block.label))));
       unclear = unclear || (block.flags & ir::Block::kRefused) != 0 || (refused && named);
     }
     if (first.Valid() && !unclear) {

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <system_error>
 
+#include "base/letter_case.h"
 #include "base/near_name.h"
 #include "dialects/modal_names.h"
 #include "dialects/profile_keys.h"
@@ -33,8 +34,6 @@ std::string SingleBlanks(std::string_view text) {
   if (!result.empty() && result.back() == ' ') result.pop_back();
   return result;
 }
-
-char Upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 
 /// Equal but for the case of letters outside of texts ("...") : tool names keep theirs (sinumerik-1.1).
 bool SameWords(std::string_view a, std::string_view b) {

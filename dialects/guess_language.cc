@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <string>
 
+#include "base/letter_case.h"
 #include "dialects/registry.h"
 
 namespace ncport::dialects {
@@ -38,7 +39,7 @@ std::string CodeOf(std::string_view line) {
       continue;
     }
     if (depth > 0) continue;
-    code.push_back(c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c == '\t' ? ' ' : c);
+    code.push_back(c == '\t' ? ' ' : Upper(c));
   }
   return code;
 }
@@ -241,10 +242,7 @@ std::string LowerEnding(std::string_view file_name) {
   if (slash != std::string_view::npos) file_name.remove_prefix(slash + 1);
   const std::size_t point = file_name.rfind('.');
   if (point == std::string_view::npos || point == 0) return {};
-  std::string ending(file_name.substr(point));
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return ending;
+  return LowerOf(file_name.substr(point));
 }
 
 struct Ending {

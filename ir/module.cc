@@ -2,15 +2,14 @@
 
 #include <algorithm>
 
+#include "base/letter_case.h"
+
 namespace ncport::ir {
 
 namespace {
 
-char Lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
 bool SameName(std::string_view a, std::string_view b, bool ignore_case) {
-  if (!ignore_case) return a == b;
-  return std::ranges::equal(a, b, {}, Lower, Lower);
+  return ignore_case ? EqualIgnoringCase(a, b) : a == b;
 }
 
 }  // namespace

@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <set>
 #include <string>
 #include <vector>
+
+#include "base/letter_case.h"
 
 namespace ncport::backends::fanuc {
 
@@ -54,7 +55,7 @@ bool NumberPrograms(const RaiseInput& input, const SplitResult& split, Translati
     std::string& name = names[program.value];
     if (!name.empty()) continue;
     const std::string source = source_name(program);
-    const int letter = std::toupper(static_cast<unsigned char>(source.empty() ? ' ' : source[0]));
+    const char letter = Upper(source.empty() ? ' ' : source[0]);
     const std::size_t digits = source.size() > 1 && (letter == 'L' || letter == 'O') ? 1 : 0;
     const bool numbered =
         source.find_first_not_of("0123456789", digits) == std::string::npos && source.size() - digits <= 4;

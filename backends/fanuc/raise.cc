@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <string>
 #include <string_view>
@@ -33,6 +32,7 @@
 #include "backends/fanuc/turning_offsets.h"
 #include "backends/fanuc/turret_tools.h"
 #include "backends/fanuc/word_digits.h"
+#include "base/letter_case.h"
 #include "dialects/fanuc/words.h"
 #include "dialects/machine.h"
 #include "ir/block_words.h"
@@ -90,11 +90,6 @@ NamesToNumbersConfig CellConfig(const RaiseInput& input, const SplitResult& spli
 std::vector<ir::analysis::DeclaredRange> DeclaredRanges(const RaiseInput& input, const Module& module) {
   std::vector<ir::analysis::DeclaredRange> declared;
   if (input.config == nullptr) return declared;
-  const auto same = [](std::string_view a, std::string_view b) {
-    return std::ranges::equal(a, b, [](char x, char y) {
-      return std::toupper(static_cast<unsigned char>(x)) == std::toupper(static_cast<unsigned char>(y));
-    });
-  };
   for (const dialects::ValueRange& range : input.config->ranges) {
     if (!range.least_of.empty() || !range.most_of.empty()) continue;
     for (const ir::VariableId id : module.variables.Ids()) {
@@ -102,7 +97,7 @@ std::vector<ir::analysis::DeclaredRange> DeclaredRanges(const RaiseInput& input,
       if (variable.scope != ir::Scope::kParameter || !variable.owner.Valid()) continue;
       const std::string name =
           fmt::format("{}.{}", module.View(module.programs[variable.owner].name), module.View(variable.name));
-      if (same(range.name, name)) declared.push_back({id, range.least, range.most});
+      if (EqualIgnoringCase(range.name, name)) declared.push_back({id, range.least, range.most});
     }
   }
   return declared;

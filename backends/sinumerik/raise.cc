@@ -15,6 +15,7 @@
 #include "backends/sinumerik/map_tools.h"
 #include "backends/sinumerik/raise_words.h"
 #include "backends/sinumerik/refuse_flow.h"
+#include "base/letter_case.h"
 #include "dialects/sinumerik/words.h"
 #include "ir/analysis/call_graph.h"
 #include "ir/builder.h"
@@ -83,9 +84,7 @@ bool NamePrograms(const RaiseInput& input, Translation& out, diag::Sink& sink) {
     if (wish.size() < 2 || !is_letter(wish[0]) || !is_letter(wish[1])) {
       wish = std::string(main ? "MAIN_" : "SUB_") + (digits == std::string::npos ? wish : wish.substr(digits));
     }
-    std::string upper = wish;
-    for (char& c : upper) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-    if (dialects::sinumerik::IsReserved(upper)) wish = "U_" + wish;
+    if (dialects::sinumerik::IsReserved(UpperOf(wish))) wish = "U_" + wish;
     if (wish.size() > most) wish.resize(most);
     name = wish;
     for (int n = 2; !taken.insert(name).second; ++n) name = fmt::format("{}_{}", wish.substr(0, most - 4), n);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/letter_case.h"
+
 namespace ncport::dialects::sinumerik {
 namespace {
 
@@ -52,8 +54,6 @@ constexpr CycleValues kValues[] = {
     {"CYCLE93", "VARI", {{1, 8}, {11, 18}}, 2, "1 to 8 or 11 to 18", "the way of machining"},
     {"CYCLE95", "VARI", {{1, 12}, {201, 212}}, 2, "1 to 12", "1 to 4 rough, 5 to 8 finish, 9 to 12 do both"},
 };
-
-constexpr char Upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 
 /// Calls `visit(name)` for the names of a list until it returns true.
 template <class Visit>

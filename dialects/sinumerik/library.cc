@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/letter_case.h"
 #include "dialects/sinumerik/library_data.h"
 
 namespace ncport::dialects::sinumerik {
@@ -21,17 +22,11 @@ constexpr LibraryLimit kLimits[] = {
     {"CYCLE83", "_AMODE", 19, kAmounts}, {"CYCLE84", "_TECHNO", 14, kTechnology}, {"CYCLE84", "_VARI", 15, kInfeeds},
 };
 
-constexpr char Upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
-
-bool SameName(std::string_view a, std::string_view b) {
-  return std::ranges::equal(a, b, [](char x, char y) { return Upper(x) == Upper(y); });
-}
-
 }  // namespace
 
 std::optional<std::string_view> LibraryCycle(std::string_view name) {
   for (std::size_t i = 0; i < kLibraryCount; ++i) {
-    if (SameName(kLibraryNames[i], name)) return kLibraryTexts[i];
+    if (EqualIgnoringCase(kLibraryNames[i], name)) return kLibraryTexts[i];
   }
   return std::nullopt;
 }
@@ -40,6 +35,8 @@ std::span<const std::string_view> LibraryCycleNames() { return {kLibraryNames, k
 
 std::span<const LibraryLimit> LibraryLimits() { return kLimits; }
 
-bool LibrarySaveFollowsProfile(std::string_view name) { return SameName(name, "CYCLE81") || SameName(name, "CYCLE82"); }
+bool LibrarySaveFollowsProfile(std::string_view name) {
+  return EqualIgnoringCase(name, "CYCLE81") || EqualIgnoringCase(name, "CYCLE82");
+}
 
 }  // namespace ncport::dialects::sinumerik

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <string>
 
+#include "base/letter_case.h"
 #include "dialects/sinumerik/words.h"
 
 namespace ncport::dialects::sinumerik {
@@ -176,9 +177,7 @@ const SystemRow* FindSystemVariable(std::string_view name) {
 }
 
 bool IsMachineData(std::string_view name) {
-  std::string upper(name.substr(std::min(name.find_first_not_of('$'), name.size())));
-  for (char& c : upper) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  return StartsAsData(upper);
+  return StartsAsData(UpperOf(name.substr(std::min(name.find_first_not_of('$'), name.size()))));
 }
 
 bool IsUnlistedSystemVariable(std::string_view name) { return FindSystemVariable(name) == &kOther; }

@@ -3,6 +3,8 @@
 
 #include <string_view>
 
+#include "base/letter_case.h"
+
 namespace ncport::frontend {
 
 constexpr bool IsDigit(char c) { return c >= '0' && c <= '9'; }
@@ -10,7 +12,6 @@ constexpr bool IsLetter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && 
 constexpr bool IsBlank(char c) { return c == ' ' || c == '\t'; }
 /// A blank or a control character.
 constexpr bool IsSpace(char c) { return static_cast<unsigned char>(c) <= ' '; }
-constexpr char Upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 /// Equal without regard to case; `upper` is in upper case.
 constexpr bool IsWord(std::string_view text, std::string_view upper) {
   if (text.size() != upper.size()) return false;

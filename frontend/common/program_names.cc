@@ -1,18 +1,8 @@
 #include "frontend/common/program_names.h"
 
-#include "frontend/common/chars.h"
+#include "base/letter_case.h"
 
 namespace ncport::frontend {
-
-namespace {
-
-std::string UpperOf(std::string_view text) {
-  std::string upper(text);
-  for (char& c : upper) c = Upper(c);
-  return upper;
-}
-
-}  // namespace
 
 ProgramNames::ProgramNames(const ir::Module& module) {
   by_name_.reserve(module.programs.Size());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/letter_case.h"
 #include "base/near_name.h"
 #include "base/result.h"
 #include "dialects/finding_alarms.h"
@@ -23,12 +24,6 @@ using ir::Type;
 using ir::WordOp;
 
 namespace {
-
-std::string UpperOf(std::string_view text) {
-  std::string upper(text);
-  for (char& c : upper) c = Upper(c);
-  return upper;
-}
 
 std::string KeyOf(ir::ProgramId owner, std::string_view name) {
   return owner.Valid() ? std::to_string(owner.value) + ":" + UpperOf(name) : ":" + UpperOf(name);
@@ -96,9 +91,7 @@ void Resolver::ReadLibrary() {
       const std::string plain = UpperOf(PlainProgramName(module_.View(name)));
       const auto text = dialects::sinumerik::LibraryCycle(plain);
       if (!text) continue;
-      std::string file_name = "<" + plain + ">";
-      for (char& c : file_name) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-      const FileId file = files_.Add(std::move(file_name), std::string(*text));
+      const FileId file = files_.Add(LowerOf("<" + plain + ">"), std::string(*text));
       const std::size_t programs = module_.programs.Size();
       NCPORT_CHECK(frontend::ReadFile(files_, file, profile_, {.library = true}, module_, sink_).Ok(),
                    "cycle {} is not read", plain);

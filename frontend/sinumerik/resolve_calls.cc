@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "base/letter_case.h"
 #include "base/near_name.h"
 #include "dialects/sinumerik/cycle_parameters.h"
 #include "dialects/sinumerik/library.h"
@@ -25,12 +26,6 @@ using ir::ExprOp;
 using ir::Type;
 
 namespace {
-
-std::string UpperOf(std::string_view text) {
-  std::string upper(text);
-  for (char& c : upper) c = Upper(c);
-  return upper;
-}
 
 std::string_view TypeText(Type type) {
   for (const auto& row : dialects::sinumerik::Types()) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/letter_case.h"
+
 namespace ncport::ir::analysis {
 
 namespace {
@@ -100,14 +102,7 @@ std::optional<LabelTable::Range> LabelTable::FindPart(const Part& part, BlockId 
   return Range{first, last};
 }
 
-std::string LabelTable::Key(std::string_view label) const {
-  std::string key(label);
-  if (ignore_case_) {
-    std::ranges::transform(key, key.begin(),
-                           [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  }
-  return key;
-}
+std::string LabelTable::Key(std::string_view label) const { return ignore_case_ ? LowerOf(label) : std::string(label); }
 
 const LabelTable::Places* LabelTable::LabelPlaces(std::string_view label) const {
   const auto found = labels_.find(Key(label));

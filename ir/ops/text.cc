@@ -6,14 +6,13 @@
 #include <cstring>
 #include <iterator>
 
+#include "base/letter_case.h"
 #include "base/number_text.h"
 
 namespace ncport::ir::ops {
 namespace {
 
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
-char Upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
-char Lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 bool IsContinuation(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
 
 std::string_view Trim(std::string_view text) {
@@ -153,6 +152,6 @@ void AppendLower(TextBuffer& buffer, std::string_view text) {
   buffer.SetEnd(std::ranges::transform(text, out, Lower).out);
 }
 
-bool SameName(std::string_view a, std::string_view b) { return std::ranges::equal(a, b, {}, Upper, Upper); }
+bool SameName(std::string_view a, std::string_view b) { return EqualIgnoringCase(a, b); }
 
 }  // namespace ncport::ir::ops

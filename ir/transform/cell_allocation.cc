@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <string>
 #include <utility>
 
+#include "base/letter_case.h"
 #include "ir/transform/word_exprs.h"
 
 namespace ncport::ir::transform {
@@ -14,10 +14,7 @@ namespace ncport::ir::transform {
 namespace {
 
 bool SameName(std::string_view a, std::string_view b, bool ignore_case) {
-  return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [&](char x, char y) {
-           return x == y || (ignore_case && std::toupper(static_cast<unsigned char>(x)) ==
-                                                std::toupper(static_cast<unsigned char>(y)));
-         });
+  return ignore_case ? EqualIgnoringCase(a, b) : a == b;
 }
 
 /// True if the expression holds a cell of the space whose number is computed.

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <cctype>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "base/letter_case.h"
 #include "ir/builder.h"
 #include "ir/make_word.h"
 #include "ir/transform/program_editor.h"
@@ -23,7 +23,7 @@ class Pass {
   void Run() {
     for (const BlockId id : module_.programs[program_].blocks) {
       const Block& block = module_.blocks[id];
-      if (block.label.Valid()) labels_.insert(Key(module_.View(block.label)));
+      if (block.label.Valid()) labels_.insert(UpperOf(module_.View(block.label)));
     }
     for (const BlockId id : module_.programs[program_].blocks) {
       const Block block = module_.blocks[id];
@@ -73,16 +73,10 @@ class Pass {
   }
 
   /// Labels compare without regard to case in some languages: new ones differ in every one.
-  static std::string Key(std::string_view label) {
-    std::string key(label);
-    for (char& c : key) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    return key;
-  }
-
   StringId NewLabel() {
     std::string label;
     do label = fmt::format("{}{}", prefix_, next_++);
-    while (!labels_.insert(Key(label)).second);
+    while (!labels_.insert(UpperOf(label)).second);
     return module_.strings.Intern(label);
   }
 

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <functional>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/letter_case.h"
 #include "ir/transform/program_editor.h"
 
 namespace ncport::ir::transform {
@@ -47,9 +47,7 @@ void MarkPartEnds(Module& module, ProgramId program, bool ignore_case) {
   for (const BlockId id : module.programs[program].blocks) {
     if (!module.blocks[id].label.Valid()) continue;
     // Some languages compare labels without regard to case: new ones differ in every one.
-    std::string key(module.View(module.blocks[id].label));
-    for (char& c : key) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    taken.insert(std::move(key));
+    taken.insert(UpperOf(module.View(module.blocks[id].label)));
   }
   std::uint32_t number = 0;
   for (const Ending& ending : endings) {

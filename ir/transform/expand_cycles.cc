@@ -71,7 +71,8 @@ class Pass {
     for (const BlockId id : blocks) {
       if (const Drilling* before = drilling_.Before(id)) MapBlock(id, *before, editor);
     }
-    editor.Apply();
+    // A refusal may have come in the middle of a block's moves.
+    if (ok_) editor.Apply();
   }
 
   [[nodiscard]] bool LeavesUnderCycle(ProgramId program, BlockId id) {

@@ -52,6 +52,7 @@ struct BlockWork {
   std::uint32_t rounded_words = 0;  // single words that pass through Machine::word_error
   std::uint32_t cycle_fields = 0;   // bit per ir::CycleField
   std::uint32_t cycle_scaled = 0;
+  std::uint32_t cycle_rounded = 0;  // lengths of a cycle that pass through Machine::word_error
   std::uint16_t scaled_axes = 0;
   std::uint8_t scaled_centers = 0;
   std::uint8_t rounded_centers = 0;
@@ -94,6 +95,7 @@ struct BlockWork {
     rounded_words = 0;
     cycle_fields = 0;
     cycle_scaled = 0;
+    cycle_rounded = 0;
     scaled_axes = 0;
     scaled_centers = 0;
     rounded_centers = 0;

@@ -99,6 +99,7 @@ bool Kinematics::StoreHole(const BlockWork& work, std::uint8_t axis, bool lathe)
     const bool step = mode == ir::ValueMode::kModal ? incremental : mode == ir::ValueMode::kIncremental;
     double depth = work.axis[axis];
     if ((work.scaled_axes & AxisBit(axis)) != 0) depth *= Increment(false);
+    if ((work.rounded & AxisBit(axis)) != 0) depth = Rounded(depth, Increment(false));
     depth *= LengthFactor();
     if (axis == session_.machine.transverse_axis && TransverseInDiameter(mode, step)) depth /= 2;
     if (step) {

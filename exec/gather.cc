@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "exec/runner.h"
+#include "ir/length_units.h"
 #include "ir/ops/arithmetic.h"
 
 namespace ncport::exec {
@@ -181,6 +182,8 @@ void Runner::Collect(const Word& word, const Value& value) {
       work_.cycle_fields |= bit;
       work_.cycle_value[word.index] = number();
       if ((word.flags & Word::kIncrements) != 0) work_.cycle_scaled |= bit;
+      if ((word.flags & Word::kRoundsValue) != 0 && ir::IsLength(static_cast<ir::CycleField>(word.index)))
+        work_.cycle_rounded |= bit;
       return;
     }
     case WordOp::kFrameFactor: {

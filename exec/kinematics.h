@@ -31,6 +31,8 @@ class Kinematics {
   void Abandon() { contour_.Abandon(); }
   /// Value of one least increment in the units in force, for numbers without decimal point.
   [[nodiscard]] double Increment(bool rotary) const;
+  /// A computed value on its way to its address (Machine::word_error).
+  [[nodiscard]] double Rounded(double value, double increment) const;
   /// Puts modal state and frame back (end of a program that saves them).
   void Restore(const ir::ModalState& modal, const Frame& frame);
 

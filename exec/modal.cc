@@ -201,17 +201,25 @@ double Kinematics::Increment(bool rotary) const {
   return rotary || LengthFactor() == 1 ? session_.machine.increment : session_.machine.increment / 10;
 }
 
+double Kinematics::Rounded(double value, double increment) const {
+  switch (session_.machine.word_error) {
+    case ir::WordError::kNone:
+      return value;
+    case ir::WordError::kRound:
+      return ir::ops::RoundToIncrement(value, increment);
+    case ir::WordError::kTruncate:
+      return ir::ops::TruncateToIncrement(value, increment);
+  }
+  return value;
+}
+
 /// Numbers without decimal point count what the modes in force say; computed values are rounded on their way to the
 /// address.
 void Kinematics::Scale(BlockWork& work) {
   const ir::Machine& machine = session_.machine;
   const double length = Increment(false);
   const bool inch = LengthFactor() != 1;
-  const auto round = [&](double& value) {
-    if (machine.word_error == ir::WordError::kNone) return;
-    value = machine.word_error == ir::WordError::kRound ? ir::ops::RoundToIncrement(value, length)
-                                                        : ir::ops::TruncateToIncrement(value, length);
-  };
+  const auto round = [&](double& value) { value = Rounded(value, length); };
   if ((work.rounded_words & BlockWork::kRadius) != 0) round(work.radius);
   for (int i = 0; i < 3; ++i) {
     if ((work.rounded_centers >> i & 1U) != 0) round(work.center[i]);
@@ -237,6 +245,9 @@ void Kinematics::Scale(BlockWork& work) {
   for (int i = 0; i < 4; ++i) {
     if ((work.scaled_factors >> i & 1U) != 0) work.factor[i] *= 0.001;
   }
+  for (std::uint32_t rest = work.cycle_rounded; rest != 0; rest &= rest - 1) {
+    round(work.cycle_value[static_cast<std::size_t>(__builtin_ctz(rest))]);
+  }
   for (std::uint32_t rest = work.cycle_scaled; rest != 0; rest &= rest - 1) {
     const auto field = static_cast<std::size_t>(__builtin_ctz(rest));
     work.cycle_value[field] *= static_cast<ir::CycleField>(field) == ir::CycleField::kDwell ? 0.001 : length;
@@ -245,7 +256,8 @@ void Kinematics::Scale(BlockWork& work) {
 
 void Kinematics::FinishSettings(BlockWork& work) {
   const bool written = work.scaled != 0 || work.rounded_words != 0 || work.scaled_centers != 0 ||
-                       work.rounded_centers != 0 || work.cycle_scaled != 0 || work.scaled_factors != 0;
+                       work.rounded_centers != 0 || work.cycle_scaled != 0 || work.cycle_rounded != 0 ||
+                       work.scaled_factors != 0;
   if (written) Scale(work);
   if (work.Has(BlockWork::kCycleWord)) BeginCycle(work);
   if (work.Has(BlockWork::kFeed)) SetFeed(work);

@@ -170,12 +170,7 @@ bool Kinematics::Target(const BlockWork& work, std::uint8_t axis) {
   const double factor = rotary ? 1 : LengthFactor();
 
   if ((work.scaled_axes & AxisBit(axis)) != 0) value *= Increment(rotary);
-  if ((work.rounded & AxisBit(axis)) != 0 && session_.machine.word_error != ir::WordError::kNone) {
-    const double increment =
-        factor == 1 ? session_.machine.increment : session_.machine.increment / 10;  // 0.001 mm, 0.0001 inch
-    value = session_.machine.word_error == ir::WordError::kRound ? ir::ops::RoundToIncrement(value, increment)
-                                                                 : ir::ops::TruncateToIncrement(value, increment);
-  }
+  if ((work.rounded & AxisBit(axis)) != 0) value = Rounded(value, Increment(rotary));
   if (rotary && (mode == ValueMode::kPositive || mode == ValueMode::kNegative) && !(value >= 0 && value < 360)) {
     session_.Alarm(ir::AlarmClass::kRange, "rotary position outside 0 to 359.999");
     return false;
@@ -257,9 +252,10 @@ bool Kinematics::ResolvePolarWords(const BlockWork& work) {
     return mode == ValueMode::kModal ? channel_.modal.distance == ir::Distance::kIncremental : IsIncremental(mode);
   };
   const auto value = [&](std::uint8_t axis, bool angle) {
-    const double scaled =
-        (work.scaled_axes & AxisBit(axis)) != 0 ? work.axis[axis] * Increment(angle) : work.axis[axis];
-    return angle ? scaled : scaled * LengthFactor();
+    double written = work.axis[axis];
+    if ((work.scaled_axes & AxisBit(axis)) != 0) written *= Increment(angle);
+    if ((work.rounded & AxisBit(axis)) != 0) written = Rounded(written, Increment(angle));
+    return angle ? written : written * LengthFactor();
   };
   const bool from_here = has(axes.first) && incremental(axes.first);
   const bool needs_position = from_here || !has(axes.first) || !has(axes.second) || incremental(axes.second);

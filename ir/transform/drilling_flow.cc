@@ -8,9 +8,11 @@
 
 namespace ncport::ir::transform {
 
-bool IsHole(std::uint32_t cycle) {
-  return cycle >= static_cast<std::uint32_t>(Cycle::kDrill) && cycle <= static_cast<std::uint32_t>(Cycle::kBoreManual);
-}
+namespace {
+constexpr std::uint32_t At(Cycle cycle) { return static_cast<std::uint32_t>(cycle); }
+}  // namespace
+
+bool IsHole(std::uint32_t cycle) { return cycle >= At(Cycle::kDrill) && cycle <= At(Cycle::kBoreManual); }
 
 Drilling DrillingFlow::Entry(ProgramId program) const {
   return {.cycle = module_.programs[program].kind == ProgramKind::kMain ? Drilling::kNoCycle : Drilling::kCallers};
@@ -19,31 +21,106 @@ Drilling DrillingFlow::Entry(ProgramId program) const {
 bool DrillingFlow::Join(BlockId, Drilling& into, const Drilling& from) const {
   const Drilling before = into;
   const auto untouched = [](std::uint32_t cycle) { return cycle == Drilling::kNoCycle || cycle == Drilling::kCallers; };
-  const auto join = [](std::uint32_t& a, std::uint32_t b) { a = a == b ? a : Drilling::kOpen; };
+  const auto same = [&](std::uint32_t a, std::uint32_t b) {
+    const auto one = LiteralOf(ExprId{a});
+    return a == b || (one && one == LiteralOf(ExprId{b}));
+  };
+  const auto join = [&](std::uint32_t& a, std::uint32_t b) { a = same(a, b) ? a : Drilling::kOpen; };
   const bool callers = into.cycle != from.cycle && untouched(into.cycle) && untouched(from.cycle);
-  join(into.cycle, from.cycle);
+  if (into.cycle != from.cycle) into.cycle = Drilling::kOpen;
   if (callers) into.cycle = Drilling::kCallers;
   for (std::uint8_t i = 0; i < Drilling::kFields; ++i) join(into.fields[i], from.fields[i]);
-  into.initial = into.initial && from.initial;
+  if (into.start != from.start) into.start = Drilling::Start::kOpen;
+  if (into.spindle != from.spindle) into.spindle = SpindleState::kUnknown;
   return into != before;
+}
+
+void DrillingFlow::Run() {
+  do {
+    flow_.emplace(analyses_.Sources(), *this);
+    flow_->Run();
+  } while (HoldMore());
+}
+
+bool DrillingFlow::Uses(std::uint32_t cycle, std::uint8_t field) {
+  const bool taps = cycle == At(Cycle::kTap) || cycle == At(Cycle::kTapLeft);
+  switch (field) {
+    case Drilling::kStep:
+      return taps || cycle == At(Cycle::kPeck) || cycle == At(Cycle::kPeckChip);
+    case Drilling::kDwell:
+      return taps || cycle == At(Cycle::kDrillDwell) || cycle == At(Cycle::kBoreDwell);
+    default:
+      return true;
+  }
+}
+
+bool DrillingFlow::HoldMore() {
+  bool more = false;
+  for (const ProgramId program : module_.programs.Ids()) {
+    for (const BlockId block : module_.programs[program].blocks) {
+      const Drilling* const before = Before(block);
+      if (before == nullptr) continue;
+      Drilling state = *before;
+      Transfer(program, block, state);
+      const std::uint8_t normal = AxesOf(analyses_.Modal().At(program, block).plane).normal;
+      if (!IsHole(state.cycle) || !WordsOf(block, normal, IsHole(before->cycle)).Drills()) continue;
+      for (std::uint8_t field = 0; field < Drilling::kFields; ++field) {
+        bool& held = locals_[program.value].held[field];
+        if (state.fields[field] != Drilling::kOpen || held || !Uses(state.cycle, field)) continue;
+        held = more = true;
+      }
+    }
+  }
+  return more;
+}
+
+/// Words of the spindle, those that act in front of the move or those behind it; what taps leave.
+void DrillingFlow::Turn(BlockId id, Drilling& state, bool behind) const {
+  for (const WordId word_id : module_.blocks[id].words) {
+    const Word& word = module_.words[word_id];
+    if ((word.phase == Phase::kAfter || word.phase == Phase::kLast) != behind) continue;
+    if (word.op == WordOp::kSpindle && word.index == 0) state.spindle = static_cast<SpindleState>(word.extra);
+    if (word.op == WordOp::kSpindlePosition) state.spindle = SpindleState::kPositioned;
+    if (word.op == WordOp::kComputedM) state.spindle = SpindleState::kUnknown;
+  }
+}
+
+SpindleState DrillingFlow::SpindleAt(BlockId id) const {
+  Drilling state = *Before(id);
+  Turn(id, state, false);
+  return state.spindle;
 }
 
 void DrillingFlow::Transfer(ProgramId program, BlockId id, Drilling& state) {
   const ModalState at = analyses_.Modal().At(program, id);
-  Store(program, WordsOf(id, AxesOf(at.plane).normal, IsHole(state.cycle)), at.distance == Distance::kIncremental,
-        state, nullptr);
+  const DrillingWords parts = WordsOf(id, AxesOf(at.plane).normal, IsHole(state.cycle));
+  Store(program, parts, at.distance == Distance::kIncremental, state, nullptr);
+  Turn(id, state, false);
+  const bool left = state.cycle == At(Cycle::kTapLeft);
+  if (parts.Drills() && (left || state.cycle == At(Cycle::kTap))) {
+    const SpindleState tapped = left ? SpindleState::kCcw : SpindleState::kCw;
+    // No hole with a count of 0.
+    if (parts.repeats == nullptr || state.spindle == tapped) {
+      state.spindle = tapped;
+    } else {
+      state.spindle = SpindleState::kUnknown;
+    }
+  }
+  Turn(id, state, true);
 }
 
 std::optional<Drilling> DrillingFlow::Into(const analysis::CallSite&, analysis::CallMoment moment,
                                            const Drilling& at) const {
   if (moment == analysis::CallMoment::kModalStart) return std::nullopt;
-  if (!IsHole(at.cycle)) return Drilling{.cycle = at.cycle};
-  return moment == analysis::CallMoment::kModalRun ? Unknown({}) : Drilling{};
+  if (!IsHole(at.cycle)) return Drilling{.cycle = at.cycle, .spindle = at.spindle};
+  return moment == analysis::CallMoment::kModalRun ? Unknown({}) : Drilling{.spindle = at.spindle};
 }
 
 Drilling DrillingFlow::Back(const analysis::CallSite&, const Drilling& at, const Drilling& exit) const {
-  if (exit.cycle == Drilling::kCallers) return at;
-  return {.cycle = exit.cycle == Drilling::kNoCycle ? Drilling::kNoCycle : Drilling::kOpen};
+  Drilling behind{.cycle = exit.cycle == Drilling::kNoCycle ? Drilling::kNoCycle : Drilling::kOpen};
+  if (exit.cycle == Drilling::kCallers) behind = at;
+  behind.spindle = exit.spindle;
+  return behind;
 }
 
 DrillingWords DrillingFlow::WordsOf(BlockId id, std::uint8_t normal, bool in_cycle) const {
@@ -118,21 +195,25 @@ std::optional<double> DrillingFlow::LiteralOf(ExprId id) const {
 void DrillingFlow::Store(ProgramId program, const DrillingWords& parts, bool incremental, Drilling& state,
                          std::vector<std::pair<ExprId, ExprId>>* assigns) {
   if (parts.cycle != Drilling::kUnset) {
-    if (!IsHole(parts.cycle) || !IsHole(state.cycle)) state = {};
+    if (!IsHole(parts.cycle) || !IsHole(state.cycle)) state = {.spindle = state.spindle};
     state.cycle = parts.cycle;
   } else if (parts.motion) {
-    state = {};
+    state = {.spindle = state.spindle};
   }
   if (!IsHole(state.cycle)) return;
   // A place, a depth or a level begins the first hole: there the initial level is taken.
-  bool begins = parts.geometry;
-  for (const Word* value : parts.values) begins = begins || value != nullptr;
-  if (begins && !state.initial) {
-    state.initial = true;
+  if (!parts.Drills()) return;
+  if (state.start == Drilling::Start::kNone) {
+    state.start = Drilling::Start::kTaken;
     if (assigns != nullptr) {
       assigns->emplace_back(Initial(program), ExprId{});
     } else {
       static_cast<void>(Initial(program));
+    }
+    // Without P a hole waits 0 seconds.
+    if (locals_[program.value].held[Drilling::kDwell] && parts.values[Drilling::kDwell] == nullptr) {
+      state.fields[Drilling::kDwell] = Local(program, Drilling::kDwell).value;
+      if (assigns != nullptr) assigns->emplace_back(Local(program, Drilling::kDwell), make_.Number("0"));
     }
   }
   for (std::uint8_t field = 0; field < Drilling::kFields; ++field) {
@@ -140,8 +221,12 @@ void DrillingFlow::Store(ProgramId program, const DrillingWords& parts, bool inc
     if (word == nullptr) continue;
     const bool step = field == Drilling::kDepth && word->mode == ValueMode::kIncremental;
     const bool adds = (incremental && (field == Drilling::kLevel || field == Drilling::kDepth)) || step;
-    if (LiteralOf(word->value) && !adds) {
+    if (LiteralOf(word->value) && !adds && !locals_[program.value].held[field]) {
       state.fields[field] = word->value.value;
+      continue;
+    }
+    if (field == Drilling::kDepth && adds && state.fields[Drilling::kLevel] >= Drilling::kOpen) {
+      state.fields[field] = Drilling::kOpen;  // counts from a level that nobody knows
       continue;
     }
     state.fields[field] = Local(program, field).value;

@@ -20,9 +20,12 @@ struct Drilling {
   static constexpr auto kNoCycle = static_cast<std::uint32_t>(Cycle::kNone);
   enum Field : std::uint8_t { kLevel, kDepth, kStep, kDwell, kFields };
 
+  enum class Start : std::uint8_t { kNone, kTaken, kOpen };
+
   std::uint32_t cycle = kNoCycle;
   std::uint32_t fields[kFields] = {kUnset, kUnset, kUnset, kUnset};
-  bool initial = false;  // the local holds the level at which the cycle began
+  Start start = Start::kNone;                     // kTaken: a local holds the level at which the cycle began
+  SpindleState spindle = SpindleState::kUnknown;  // of the main spindle, if it is one on all ways
   bool operator==(const Drilling&) const = default;
 };
 
@@ -37,21 +40,24 @@ struct DrillingWords {
   const Word* repeats = nullptr;
   std::vector<Word> place;  // axis words but the depth
   bool geometry = false;    // a place or a depth
+
+  /// Other words of a block move or wait, and no data of it are stored (fanuc-8.7).
+  [[nodiscard]] bool Drills() const { return geometry || values[Drilling::kLevel] != nullptr; }
 };
 
 class DrillingFlow {
  public:
   /// Makes locals for data that no literal gives. `analyses`: of the module as it is.
   DrillingFlow(Module& module, const analysis::FlowAnalyses& analyses)
-      : module_(module),
-        analyses_(analyses),
-        make_(module),
-        flow_(analyses.Sources(), *this),
-        locals_(module.programs.Size()) {}
+      : module_(module), analyses_(analyses), make_(module), locals_(module.programs.Size()) {}
 
-  void Run() { flow_.Run(); }
+  void Run();
   /// On arrival at the block; null: no run gets there.
-  [[nodiscard]] const Drilling* Before(BlockId block) const { return flow_.Before(block); }
+  [[nodiscard]] const Drilling* Before(BlockId block) const { return flow_->Before(block); }
+  /// The cycle asks for this field.
+  static bool Uses(std::uint32_t cycle, std::uint8_t field);
+  /// What the main spindle does at the hole of the block.
+  [[nodiscard]] SpindleState SpindleAt(BlockId id) const;
 
   [[nodiscard]] DrillingWords WordsOf(BlockId id, std::uint8_t normal, bool in_cycle) const;
   /// Data of the block as expressions; `assigns`: what must be computed in front of it, a place and its value each,
@@ -76,14 +82,18 @@ class DrillingFlow {
   [[nodiscard]] State Back(const analysis::CallSite&, const State& at, const State& exit) const;
 
  private:
+  /// Fields to hold in locals; false: there are no more of them.
+  bool HoldMore();
+  void Turn(BlockId id, Drilling& state, bool behind) const;
   ExprId Local(ProgramId program, std::uint8_t field);
 
   Module& module_;
   const analysis::FlowAnalyses& analyses_;
   ExprBuilder make_;
-  analysis::ForwardFlow<DrillingFlow> flow_;
+  std::optional<analysis::ForwardFlow<DrillingFlow>> flow_;
   struct Locals {
     ExprId fields[Drilling::kFields], initial;
+    bool held[Drilling::kFields] = {};  // ways with different numbers meet: a local holds all of them
   };
   std::vector<Locals> locals_;  // per program
 };

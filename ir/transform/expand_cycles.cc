@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "ir/builder.h"
-#include "ir/length_units.h"
 #include "ir/make_word.h"
 #include "ir/plane_axes.h"
 #include "ir/transform/drilling_flow.h"
+#include "ir/transform/hole_moves.h"
 #include "ir/transform/new_local.h"
 #include "ir/transform/program_editor.h"
 
@@ -23,13 +23,13 @@ class Pass {
  public:
   Pass(Module& module, const Machine& source, const ExpandCyclesConfig& config, diag::Sink& sink)
       : module_(module),
-        source_(source),
         config_(config),
         sink_(sink),
         make_(module),
         analyses_(module, source, {source.start, config.sub_entry}),
         flow_(analyses_.Modal()),
-        drilling_(module, analyses_) {}
+        drilling_(module, analyses_),
+        moves_(module, source, config.most_pecks) {}
 
   bool Run() {
     bool any = false;
@@ -169,7 +169,7 @@ class Pass {
                            (word.op == WordOp::kCenter && word.index == 2);
       if (of_hole) continue;
       if (word.op == WordOp::kCenter) return Refuse(block, "centre words in a cycle");
-      if (word.op == WordOp::kDwellSeconds) return Refuse(block, "a dwell beside a cycle");
+      if (word.op == WordOp::kDwellSeconds && parts.Drills()) return Refuse(block, "a dwell beside a hole");
       const bool behind = word.phase == Phase::kAfter || word.phase == Phase::kLast;
       (behind ? last : first).push_back(word);
     }
@@ -193,7 +193,7 @@ class Pass {
       const ExprId now = value.Valid() ? value : make_.System(config_.position, {make_.AxisName(normal)});
       put({MakeAssignment(local, now)});
     }
-    if (!parts.geometry && parts.values[Drilling::kLevel] == nullptr) {
+    if (!parts.Drills()) {
       if (!parts.place.empty()) {
         first.push_back(MotionWord(Motion::kRapid));
         first.insert(first.end(), parts.place.begin(), parts.place.end());
@@ -207,16 +207,33 @@ class Pass {
       if (!count || *count < 0 || *count > 9999) return Refuse(block, "a computed number of repetitions");
       repeats = std::round(*count);
     }
-    if (state.fields[Drilling::kLevel] >= Drilling::kOpen || state.fields[Drilling::kDepth] >= Drilling::kOpen)
+    const auto& fields = state.fields;
+    if (fields[Drilling::kLevel] >= Drilling::kOpen || fields[Drilling::kDepth] >= Drilling::kOpen)
       return Refuse(block, "a drilling cycle whose level or depth is not one on all ways here");
+    for (const std::uint8_t field : {Drilling::kStep, Drilling::kDwell}) {
+      if (fields[field] == Drilling::kOpen && DrillingFlow::Uses(state.cycle, field))
+        return Refuse(block, "a drilling cycle whose step or dwell is not one on all ways here");
+    }
     if (at.return_level == ReturnLevel::kUnknown)
       return Refuse(block, "a drilling cycle whose return level is not known");
+    if (at.units == Units::kUnknown) return Refuse(block, "a drilling cycle whose unit of lengths is not known");
+    const bool counts = at.distance == Distance::kIncremental && parts.values[Drilling::kLevel] != nullptr;
+    if (state.start == Drilling::Start::kOpen && (counts || at.return_level == ReturnLevel::kInitial))
+      return Refuse(block, "a drilling cycle whose start level is not one on all ways here");
     if (repeats == 0) {
       if (!first.empty()) put(first);
       return finish();
     }
-    if (repeats > 1) {
-      if (block.skip_level != Block::kNoSkip) return Refuse(block, "repetitions of a cycle in a skipped block");
+    const SpindleState spindle = drilling_.SpindleAt(id);
+    const auto hole = [&] { return MakeHole(block, parts, state, at, normal, spindle, first, put); };
+    if (repeats > 1 && block.skip_level != Block::kNoSkip) {
+      // No loop can be skipped: its marks stand alone.
+      if (repeats > config_.most_pecks) return Refuse(block, "many repetitions of a cycle in a skipped block");
+      for (int turn = 0; turn < static_cast<int>(repeats); ++turn) {
+        if (!hole()) return;
+        first.clear();
+      }
+    } else if (repeats > 1) {
       if (!first.empty()) put(first);
       first.clear();
       const ExprId turn = make_.Variable(NewLocal(module_, program_, "U_TURN", Type::kReal));
@@ -224,132 +241,52 @@ class Pass {
       Expr less = module_.exprs[make_.Binary(ExprOp::kLess, turn, make_.Literal(repeats, Type::kInt))];
       less.flags |= Expr::kTolerance;  // whole numbers
       put({MakeWord(WordOp::kWhile, 0, module_.AddExpr(less))});
-      if (!Hole(block, parts, state, at, normal, first, put)) return;
+      if (!hole()) return;
       put({MakeAssignment(turn, make_.Binary(ExprOp::kAdd, turn, make_.Number("1")))});
       put({MakeWord(WordOp::kEndWhile)});
-    } else if (!Hole(block, parts, state, at, normal, first, put)) {
+    } else if (!hole()) {
       return;
     }
     finish();
   }
 
-  /// One hole, as exec::Kinematics::DrillHole makes it.
+  /// One hole, from its place on.
   template <class Put>
-  bool Hole(const Block& block, const DrillingWords& parts, const Drilling& state, const ModalState& at,
-            std::uint8_t normal, std::vector<Word> first, const Put& put) {
-    const ExprId level{state.fields[Drilling::kLevel]}, depth{state.fields[Drilling::kDepth]};
-    const auto axis = [&](ExprId value) {
-      Word word = MakeWord(WordOp::kAxis, normal, value);
-      word.mode = at.distance == Distance::kIncremental ? ValueMode::kAbsolute : ValueMode::kModal;
-      return word;
+  bool MakeHole(const Block& block, const DrillingWords& parts, const Drilling& state, const ModalState& at,
+                std::uint8_t normal, SpindleState spindle, std::vector<Word> first, const Put& put) {
+    const auto field = [&](Drilling::Field which) {
+      return state.fields[which] >= Drilling::kOpen ? ExprId{} : ExprId{state.fields[which]};
     };
-    const auto rapid = [&](ExprId value) { put(std::vector<Word>{MotionWord(Motion::kRapid), axis(value)}); };
-    const auto feed = [&](ExprId value) { put(std::vector<Word>{MotionWord(Motion::kLinear), axis(value)}); };
-    const auto back = [&] { rapid(at.return_level == ReturnLevel::kInitial ? drilling_.Initial(program_) : level); };
-    const auto spindle = [&](SpindleState sense) {
-      put(std::vector<Word>{MakeWord(WordOp::kSpindle, 0, {}, static_cast<std::uint32_t>(sense))});
-    };
-    const auto pause = [&]() -> bool {
-      if (state.fields[Drilling::kDwell] == Drilling::kUnset) return true;
-      const auto seconds = drilling_.LiteralOf(ExprId{state.fields[Drilling::kDwell]});
-      if (!seconds) {
-        Refuse(block, "a computed dwell of a cycle");
-        return false;
-      }
-      if (*seconds > 0)
-        put(std::vector<Word>{MakeWord(WordOp::kDwellSeconds, 0, ExprId{state.fields[Drilling::kDwell]})});
-      return true;
-    };
-    if (at.units == Units::kUnknown) {
-      Refuse(block, "a drilling cycle whose unit of lengths is not known");
-      return false;
-    }
+    Hole hole;
+    hole.cycle = static_cast<Cycle>(state.cycle);
+    hole.level = field(Drilling::kLevel);
+    hole.depth = field(Drilling::kDepth);
+    hole.step = field(Drilling::kStep);
+    hole.dwell = field(Drilling::kDwell);
+    hole.back = at.return_level == ReturnLevel::kInitial ? drilling_.Initial(program_) : hole.level;
+    hole.normal = normal;
+    hole.incremental = at.distance == Distance::kIncremental;
+    hole.skipped = block.skip_level != Block::kNoSkip;
+    hole.units = at.units;
+    hole.spindle = spindle;
     if (!parts.place.empty()) {
       first.push_back(MotionWord(Motion::kRapid));
       first.insert(first.end(), parts.place.begin(), parts.place.end());
     }
     if (!first.empty()) put(first);
-    rapid(level);
-    switch (static_cast<Cycle>(state.cycle)) {
-      case Cycle::kDrill:
-        feed(depth);
-        break;
-      case Cycle::kDrillDwell:
-        feed(depth);
-        if (!pause()) return false;
-        break;
-      case Cycle::kPeck:
-      case Cycle::kPeckChip:
-        if (!Pecks(block, state, MmPerLengthUnit(at.units), rapid, feed)) return false;
-        break;
-      case Cycle::kTap:
-      case Cycle::kTapLeft: {
-        if (state.fields[Drilling::kStep] != Drilling::kUnset) {
-          Refuse(block, "tapping with pecks");
-          return false;
-        }
-        const bool left = state.cycle == static_cast<std::uint32_t>(Cycle::kTapLeft);
-        feed(depth);
-        if (!pause()) return false;
-        spindle(left ? SpindleState::kCw : SpindleState::kCcw);
-        feed(level);
-        spindle(left ? SpindleState::kCcw : SpindleState::kCw);
-        break;
-      }
-      case Cycle::kBoreFeed:
-        feed(depth);
-        feed(level);
-        break;
-      case Cycle::kBoreDwell:
-        feed(depth);
-        if (!pause()) return false;
-        feed(level);
-        break;
-      default:
-        Refuse(block, "this drilling cycle, whose way the text does not tell,");
-        return false;
-    }
-    back();
-    return true;
-  }
-
-  template <class Move>
-  bool Pecks(const Block& block, const Drilling& state, double unit, const Move& rapid, const auto& feed) {
-    const ExprId level_expr{state.fields[Drilling::kLevel]};
-    const auto level = drilling_.LiteralOf(level_expr),
-               depth = drilling_.LiteralOf(ExprId{state.fields[Drilling::kDepth]});
-    const double size = std::fabs(drilling_.LiteralOf(ExprId{state.fields[Drilling::kStep]}).value_or(0));
-    if (!level || !depth || size == 0 || std::fabs(*depth - *level) / size > config_.most_pecks) {
-      Refuse(block, "peck drilling with computed data, or in more steps than are written out,");
-      return false;
-    }
-    const bool full = state.cycle == static_cast<std::uint32_t>(Cycle::kPeck);
-    const double down = *depth < *level ? -1 : 1;
-    // The machine's clearances are mm, words are what the units in force say.
-    const double clearance = (full ? source_.peck_clearance : source_.chip_back_off) / unit;
-    double reached = *level;
-    for (int turn = 1;; ++turn) {
-      double next = *level + down * size * turn;
-      const bool last = (next - *depth) * down >= -1e-9;
-      if (last) next = *depth;
-      if (turn > 1) {
-        if (full) rapid(level_expr);
-        rapid(make_.Literal(reached - down * clearance));
-      }
-      feed(last ? ExprId{state.fields[Drilling::kDepth]} : make_.Literal(next));
-      reached = next;
-      if (last) return true;
-    }
+    const std::string_view wrong = moves_.Make(program_, hole, put);
+    if (!wrong.empty()) Refuse(block, wrong);
+    return wrong.empty();
   }
 
   Module& module_;
-  const Machine& source_;
   const ExpandCyclesConfig& config_;
   diag::Sink& sink_;
   ExprBuilder make_;
   analysis::FlowAnalyses analyses_;
   const analysis::ModalFlow& flow_;
   DrillingFlow drilling_;
+  HoleMoves moves_;
   std::set<std::uint32_t> called_;  // programs
   ProgramId program_;
   bool ok_ = true;

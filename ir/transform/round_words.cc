@@ -6,6 +6,9 @@
 #include "ir/analysis/flow_analyses.h"
 #include "ir/builder.h"
 #include "ir/length_units.h"
+#include "ir/literal_value.h"
+#include "ir/ops/arithmetic.h"
+#include "ir/plane_axes.h"
 #include "ir/transform/adapt_expressions.h"
 
 namespace ncport::ir::transform {
@@ -23,6 +26,7 @@ class Pass {
 
   bool Run() {
     everywhere_ = ReadsPositions() || HasArcToPoint();
+    pecks_ = HasPecks();
     changes_unit_ = ChangesUnit();
     for (const ProgramId program : module_.programs.Ids()) {
       for (const BlockId block : module_.programs[program].blocks) {
@@ -57,6 +61,14 @@ class Pass {
     return false;
   }
 
+  /// How many pecks a hole has hangs on its exact depth.
+  [[nodiscard]] bool HasPecks() const {
+    return std::ranges::any_of(module_.words.All(), [](const Word& word) {
+      const auto cycle = static_cast<Cycle>(word.index);
+      return word.op == WordOp::kCycle && (cycle == Cycle::kPeck || cycle == Cycle::kPeckChip);
+    });
+  }
+
   /// Some moves may be in inches, others in millimetres.
   [[nodiscard]] bool ChangesUnit() const {
     return std::ranges::any_of(module_.words.All(), [&](const Word& word) {
@@ -79,21 +91,32 @@ class Pass {
         // Half an increment of an absolute word is no difference, but one of an inch is seen where millimetres follow.
         const bool coarse =
             changes_unit_ && !IsRotary(word.index) && state_.units != Units::kMm && state_.units != Units::kMmGeometry;
-        if (absolute && !everywhere_ && !coarse) break;
+        const bool depth = pecks_ && (state_.plane == Plane::kUnknown || word.index == AxesOf(state_.plane).normal);
+        if (absolute && !everywhere_ && !coarse && !depth) break;
         const std::optional<double> step = StepOf(block, word);
-        if (step) word.value = RoundedTo(module_, word.value, *step);
+        if (step) Round(word, *step);
         break;
       }
+      case WordOp::kCycleValue:
+        if (!IsLength(static_cast<CycleField>(word.index))) break;
+        [[fallthrough]];
       case WordOp::kCenter:
       case WordOp::kRadius: {
         const std::optional<double> step = StepOf(block, word);
-        if (step) word.value = RoundedTo(module_, word.value, *step);
+        if (step) Round(word, *step);
         break;
       }
       default:
         break;
     }
     module_.words[id] = word;
+  }
+
+  void Round(Word& word, double step) {
+    // `-[8.]` is a number that needs none.
+    const std::optional<double> number = LiteralValue(module_, word.value);
+    if (number && ops::RoundToIncrement(*number, step) == *number) return;
+    word.value = RoundedTo(module_, word.value, step);
   }
 
   std::optional<double> StepOf(BlockId block, const Word& word) {
@@ -123,6 +146,7 @@ class Pass {
   ModalState state_;
   bool everywhere_ = false;
   bool changes_unit_ = false;
+  bool pecks_ = false;
   bool ok_ = true;
 };
 

@@ -6,6 +6,7 @@
 
 #include "ir/analysis/flow_analyses.h"
 #include "ir/builder.h"
+#include "ir/literal_value.h"
 #include "ir/make_word.h"
 #include "ir/transform/linear_form.h"
 #include "ir/transform/program_editor.h"
@@ -45,6 +46,7 @@ class Pass {
           const Word& word = module_.words[word_id];
           if (word.op != WordOp::kFrame) continue;
           shifts = shifts || Is(word, FrameOp::kLocalShift);
+          if (Is(word, FrameOp::kLocalShift)) shifted_ |= ShiftedBy(id);
           rotations = rotations || Is(word, FrameOp::kRotateAbout);
         }
       }
@@ -100,7 +102,19 @@ class Pass {
     }
   }
 
-  /// TRANS gives every axis that it does not name 0, G52 leaves it: so all G52 must name the same ones.
+  /// Axes of a G52 block that it gives a shift, or may give one: all but zeros.
+  [[nodiscard]] std::uint16_t ShiftedBy(BlockId id) const {
+    std::uint16_t axes = 0;
+    for (const WordId word_id : module_.blocks[id].words) {
+      const Word& word = module_.words[word_id];
+      if (word.op == WordOp::kAxis && ir::LiteralValue(module_, word.value) != 0.0)
+        axes = static_cast<std::uint16_t>(axes | (1U << word.index));
+    }
+    return axes;
+  }
+
+  /// TRANS gives every axis that it does not name 0, G52 leaves it: so all G52 must name each axis that one of them
+  /// shifts.
   void Shift(BlockId id, const Block& block, const Word& frame) {
     std::uint16_t axes = 0;
     for (const WordId word_id : block.words) {
@@ -113,8 +127,8 @@ class Pass {
         return Refuse(block, word, "a word beside a shift");
       }
     }
-    if (!axes_) axes_ = axes;
-    if (*axes_ != axes || axes == 0) return Refuse(block, frame, "a shift that names other axes than another one");
+    if ((shifted_ & ~axes) != 0 || axes == 0)
+      return Refuse(block, frame, "a shift that names other axes than another one");
     for (const WordId word_id : block.words) {
       Word& word = module_.words[word_id];
       if (word.op != WordOp::kAxis) continue;
@@ -206,7 +220,7 @@ class Pass {
   ir::ExprBuilder make_;
   ir::analysis::FlowAnalyses analyses_;
   const ir::analysis::ModalFlow& flow_;
-  std::optional<std::uint16_t> axes_;
+  std::uint16_t shifted_ = 0;  // by some G52
   bool ok_ = true;
 };
 

@@ -129,6 +129,14 @@ void CheckCallsWithoutModalCall(const Subject& subject, ir::ProgramId program, d
   }
 }
 
+/// The word that makes the call modal; `otherwise` where it is not found.
+SourceRange BeginOf(const Subject& subject, CallId call, const SourceRange& otherwise) {
+  for (const ir::analysis::CallSite& site : subject.calls.AllSites()) {
+    if (site.call == call) return subject.PlaceOf(site.block, subject.module.words[site.word]);
+  }
+  return otherwise;
+}
+
 }  // namespace
 
 void CheckModalCalls(const Subject& subject, ir::ProgramId program, diag::Sink& sink) {
@@ -149,20 +157,19 @@ void CheckModalCalls(const Subject& subject, ir::ProgramId program, diag::Sink& 
     if (word == nullptr && cycle) word = meaning.away != nullptr ? meaning.away : meaning.tool_axis;
     if (word == nullptr) continue;
     told.insert(call_id.value);
+    const SourceRange here = subject.PlaceOf(id, *word);
+    const bool changes = word == meaning.change;
+    const bool away = word == meaning.away;
+    // Where the missing end belongs is for the programmer to say: it is told where the call begins.
     diag::Diagnostic& finding =
-        sink.Report(diag::Code::kModalCallInForce, subject.PlaceOf(id, *word), module.View(call.name));
-    for (const ir::analysis::CallSite& site : subject.calls.AllSites()) {
-      if (site.call != call_id) continue;
-      finding.notes.push_back({subject.PlaceOf(site.block, module.words[site.word]), "it begins here"});
-      break;
-    }
-    if (word == meaning.change) {
-      finding.help = "end it before the tool is changed";
-    } else {
-      finding.help = word == meaning.away
-                         ? "it runs behind this move too: end it before"
-                         : "it runs behind this move too, at the place of the last hole: end it before";
-    }
+        sink.Report(diag::Code::kModalCallInForce, BeginOf(subject, call_id, here), module.View(call.name),
+                    changes ? "the tool changes"
+                    : away  ? "the axes go to a place of the machine"
+                            : "the tool moves by its own axis alone");
+    finding.notes.push_back({here, changes ? "here"
+                                   : away  ? "it runs behind this move too"
+                                           : "it runs behind this move too, at the place of the last hole"});
+    finding.help = "end it behind the last place that it is for";
   }
 }
 

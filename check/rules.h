@@ -33,8 +33,8 @@ void CheckArcWords(const Subject& subject, ir::ProgramId program, diag::Sink& si
 void CheckLoopCounters(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
 /// NC3010: EQ or NE with a fraction that binary numbers do not hold, where the control compares exactly.
 void CheckExactComparisons(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
-/// NC4014: a modal call that is still in force where the tool changes, or where a cycle would run at a retract. NC4013:
-/// a cycle that needs a modal call, where none is in force on any way.
+/// NC4014: a modal call that is not ended before the tool changes, or before a retract where its cycle would run.
+/// NC4013: a cycle that needs a modal call, where none is in force on any way.
 void CheckModalCalls(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
 
 /// NC4007: jumps back from which no way leads to an end, a stop or an alarm.

@@ -345,9 +345,9 @@ TEST_CASE("arcs under different scale factors") {
 
 TEST_CASE("modal calls that are still in force") {
   const std::string call = "S1000 M3 F100\nG0 X0 Y0 Z20\nMCALL CYCLE81(10,0,2,-5)\nX10 Y10\n";
-  CHECK(Mill(call + "G0 Z50\nM30\n") == "NC4014 5");
-  CHECK(Mill(call + "T5 M6\nM30\n") == "NC4014 5");
-  CHECK(Mill(call + "G0 SUPA Z0\nM30\n") == "NC4014 5");
+  CHECK(Mill(call + "G0 Z50\nM30\n") == "NC4014 3");
+  CHECK(Mill(call + "T5 M6\nM30\n") == "NC4014 3");
+  CHECK(Mill(call + "G0 SUPA Z0\nM30\n") == "NC4014 3");
   CHECK(Mill(call + "MCALL\nG0 Z50\nT5 M6\nM30\n").empty());
   CHECK(Mill(call + "X30\nZ12 X40\nM30\n").empty());
   CHECK(Mill(call + "IF R1>0\nMCALL\nENDIF\nG0 Z50\nM30\n").empty());
@@ -356,7 +356,7 @@ TEST_CASE("modal calls that are still in force") {
   const std::string own = "%_N_MA_MPF\nMCALL UPA\nX10\n";
   const std::string upa = "M30\n%_N_UPA_SPF\nG91 G1 Z-1 F50\nG90\nM17\n";
   CHECK(Mill(own + "Z5\nMCALL\n" + upa).empty());
-  CHECK(Mill(own + "T5 M6\n" + upa) == "NC4014 4");
+  CHECK(Mill(own + "T5 M6\n" + upa) == "NC4014 2");
 }
 
 }  // namespace ncport::check

@@ -97,10 +97,7 @@ bool Kinematics::StoreHole(const BlockWork& work, std::uint8_t axis, bool lathe)
   if ((work.axes & AxisBit(axis)) != 0) {
     const ir::ValueMode mode = work.axis_mode[axis];
     const bool step = mode == ir::ValueMode::kModal ? incremental : mode == ir::ValueMode::kIncremental;
-    double depth = work.axis[axis];
-    if ((work.scaled_axes & AxisBit(axis)) != 0) depth *= Increment(false);
-    if ((work.rounded & AxisBit(axis)) != 0) depth = Rounded(depth, Increment(false));
-    depth *= LengthFactor();
+    double depth = WordOf(work, axis, false) * LengthFactor();
     if (axis == session_.machine.transverse_axis && TransverseInDiameter(mode, step)) depth /= 2;
     if (step) {
       if (!state.level_known) {

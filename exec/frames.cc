@@ -87,8 +87,7 @@ bool Kinematics::LayerCenter(const BlockWork& work, std::uint8_t axis, double& c
     return true;
   }
   if (Unknown(channel_.modal.units == ir::Units::kUnknown, "the unit of lengths")) return false;
-  center = work.axis[axis] * LengthFactor();
-  if ((work.scaled_axes & AxisBit(axis)) != 0) center *= Increment(false);
+  center = WordOf(work, axis, false) * LengthFactor();
   // The words are coordinates of the program: what acts inside of this layer moves them too.
   if ((layers.mirrored & AxisBit(axis)) != 0) center = 2 * layers.mirror_at[axis] - center;
   if (work.frame == FrameOp::kRotateAbout && layers.scales && axis < 3) {
@@ -150,8 +149,7 @@ void Kinematics::ApplyLayer(const BlockWork& work) {
         if ((work.axes & AxisBit(axis)) == 0) continue;
         const bool rotary = ir::IsRotary(axis);
         if (!rotary && Unknown(channel_.modal.units == ir::Units::kUnknown, "the unit of lengths")) return;
-        double value = work.axis[axis] * (rotary ? 1 : LengthFactor());
-        if ((work.scaled_axes & AxisBit(axis)) != 0) value *= Increment(rotary);
+        double value = WordOf(work, axis, rotary) * (rotary ? 1 : LengthFactor());
         if (axis == machine.transverse_axis && machine.frame_shift_in_diameter &&
             TransverseInDiameter(ir::ValueMode::kAbsolute, false))
           value /= 2;
@@ -286,12 +284,9 @@ void Kinematics::Preset(const BlockWork& work) {
   for (std::uint8_t axis = 0; axis < ir::kMaxAxes; ++axis) {
     const std::uint16_t bit = AxisBit(axis);
     if ((work.axes & bit) == 0) continue;
-    double value = work.axis[axis];
-    if (!ir::IsRotary(axis)) {
-      if (Unknown(channel_.modal.units == ir::Units::kUnknown, "the unit of lengths")) return;
-      value *= LengthFactor();
-    }
-    if ((work.scaled_axes & bit) != 0) value *= Increment(ir::IsRotary(axis));
+    const bool rotary = ir::IsRotary(axis);
+    if (!rotary && Unknown(channel_.modal.units == ir::Units::kUnknown, "the unit of lengths")) return;
+    double value = WordOf(work, axis, rotary) * (rotary ? 1 : LengthFactor());
     const bool shifts = work.axis_mode[axis] == ir::ValueMode::kIncremental;  // U W: by an amount (fanuc-8.4)
     if (axis == session_.machine.transverse_axis && TransverseInDiameter(ir::ValueMode::kAbsolute, shifts)) value /= 2;
     if (shifts) {

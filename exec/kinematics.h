@@ -33,6 +33,8 @@ class Kinematics {
   [[nodiscard]] double Increment(bool rotary) const;
   /// A computed value on its way to its address (Machine::word_error).
   [[nodiscard]] double Rounded(double value, double increment) const;
+  /// The word of the axis in mm, inches or degrees as the block has it: increments counted, a computed value rounded.
+  [[nodiscard]] double WordOf(const BlockWork& work, std::uint8_t axis, bool angle) const;
   /// Puts modal state and frame back (end of a program that saves them).
   void Restore(const ir::ModalState& modal, const Frame& frame);
 

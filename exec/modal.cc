@@ -213,6 +213,13 @@ double Kinematics::Rounded(double value, double increment) const {
   return value;
 }
 
+double Kinematics::WordOf(const BlockWork& work, std::uint8_t axis, bool angle) const {
+  double value = work.axis[axis];
+  if ((work.scaled_axes & AxisBit(axis)) != 0) value *= Increment(angle);
+  if ((work.rounded & AxisBit(axis)) != 0) value = Rounded(value, Increment(angle));
+  return value;
+}
+
 /// Numbers without decimal point count what the modes in force say; computed values are rounded on their way to the
 /// address.
 void Kinematics::Scale(BlockWork& work) {

@@ -160,7 +160,6 @@ bool Kinematics::Known(std::uint8_t axis, std::string_view why) {
 bool Kinematics::Target(const BlockWork& work, std::uint8_t axis) {
   const ValueMode mode = work.axis_mode[axis];
   const ir::ModalState& modal = channel_.modal;
-  double value = work.axis[axis];
   if (mode == ValueMode::kModal && Unknown(modal.distance == ir::Distance::kUnknown, "absolute or incremental"))
     return false;
   const bool incremental =
@@ -169,8 +168,7 @@ bool Kinematics::Target(const BlockWork& work, std::uint8_t axis) {
   if (!rotary && Unknown(modal.units == ir::Units::kUnknown, "the unit of lengths")) return false;
   const double factor = rotary ? 1 : LengthFactor();
 
-  if ((work.scaled_axes & AxisBit(axis)) != 0) value *= Increment(rotary);
-  if ((work.rounded & AxisBit(axis)) != 0) value = Rounded(value, Increment(rotary));
+  double value = WordOf(work, axis, rotary);
   if (rotary && (mode == ValueMode::kPositive || mode == ValueMode::kNegative) && !(value >= 0 && value < 360)) {
     session_.Alarm(ir::AlarmClass::kRange, "rotary position outside 0 to 359.999");
     return false;
@@ -252,9 +250,7 @@ bool Kinematics::ResolvePolarWords(const BlockWork& work) {
     return mode == ValueMode::kModal ? channel_.modal.distance == ir::Distance::kIncremental : IsIncremental(mode);
   };
   const auto value = [&](std::uint8_t axis, bool angle) {
-    double written = work.axis[axis];
-    if ((work.scaled_axes & AxisBit(axis)) != 0) written *= Increment(angle);
-    if ((work.rounded & AxisBit(axis)) != 0) written = Rounded(written, Increment(angle));
+    const double written = WordOf(work, axis, angle);
     return angle ? written : written * LengthFactor();
   };
   const bool from_here = has(axes.first) && incremental(axes.first);

@@ -53,6 +53,13 @@ class Pass {
     return false;
   }
 
+  [[nodiscard]] bool NamesHole(const Block& block) const {
+    for (const WordId id : block.words) {
+      if (IsHoleWord(module_.words[id])) return true;
+    }
+    return false;
+  }
+
   void Refuse(const Block& block, std::string_view what) {
     ok_ = false;
     // Passes before this one may have made several blocks of one: one finding for it.
@@ -69,7 +76,11 @@ class Pass {
     program_ = program;
     ProgramEditor editor(module_, program, "expand_cycles");
     for (const BlockId id : blocks) {
-      if (const Drilling* before = drilling_.Before(id)) MapBlock(id, *before, editor);
+      if (const Drilling* before = drilling_.Before(id)) {
+        MapBlock(id, *before, editor);
+      } else if (NamesHole(module_.blocks[id])) {
+        Refuse(module_.blocks[id], "a drilling cycle that no run comes to");
+      }
     }
     // A refusal may have come in the middle of a block's moves.
     if (ok_) editor.Apply();

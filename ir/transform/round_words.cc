@@ -31,6 +31,7 @@ class Pass {
     for (const ProgramId program : module_.programs.Ids()) {
       for (const BlockId block : module_.programs[program].blocks) {
         state_ = flow_.At(program, block);
+        shifts_ = MovesZero(block);
         for (const WordId word : module_.blocks[block].words) RoundWord(block, word);
       }
     }
@@ -57,6 +58,15 @@ class Pass {
           if (module_.words[word].op == WordOp::kAxis) return true;
         }
       }
+    }
+    return false;
+  }
+
+  /// A shift and the words behind it would be wrong by half an increment each.
+  [[nodiscard]] bool MovesZero(BlockId block) const {
+    for (const WordId word : module_.blocks[block].words) {
+      const WordOp op = module_.words[word].op;
+      if (op == WordOp::kFrame || op == WordOp::kPresetPosition) return true;
     }
     return false;
   }
@@ -92,7 +102,7 @@ class Pass {
         const bool coarse =
             changes_unit_ && !IsRotary(word.index) && state_.units != Units::kMm && state_.units != Units::kMmGeometry;
         const bool depth = pecks_ && (state_.plane == Plane::kUnknown || word.index == AxesOf(state_.plane).normal);
-        if (absolute && !everywhere_ && !coarse && !depth) break;
+        if (absolute && !everywhere_ && !coarse && !depth && !shifts_) break;
         const std::optional<double> step = StepOf(block, word);
         if (step) Round(word, *step);
         break;
@@ -147,6 +157,7 @@ class Pass {
   bool everywhere_ = false;
   bool changes_unit_ = false;
   bool pecks_ = false;
+  bool shifts_ = false;  // the words of the block are a shift
   bool ok_ = true;
 };
 

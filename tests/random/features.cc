@@ -23,6 +23,11 @@ static_assert(std::size(kRows) == kFeatures);
 
 std::string_view NameOf(Feature feature) { return kRows[static_cast<std::size_t>(feature)].name; }
 
+bool Exists(Feature feature, Flavour flavour) {
+  const Row& row = kRows[static_cast<std::size_t>(feature)];
+  return (flavour == Flavour::kSinumerik ? row.sinumerik : row.fanuc) != 0;
+}
+
 bool IsStatement(Feature feature) { return kRows[static_cast<std::size_t>(feature)].kind == Kind::kStatement; }
 
 Weights Weights::For(Flavour flavour) {

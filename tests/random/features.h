@@ -19,6 +19,8 @@ enum class Feature : std::uint8_t {
 inline constexpr std::size_t kFeatures = static_cast<std::size_t>(Feature::kComputedTarget) + 1;
 
 std::string_view NameOf(Feature feature);
+/// The programs of this language can have it.
+bool Exists(Feature feature, Flavour flavour);
 /// True for features that are drawn against each other; else the weight is a percentage.
 bool IsStatement(Feature feature);
 

@@ -118,6 +118,15 @@ bool IsTooMuch(std::uint64_t refused, std::uint64_t checked) {
   return static_cast<double>(refused) > 0.1 * all + chance;
 }
 
+/// A feature of --weights that the direction's language does not have; null: there is none.
+const char* Missing(const Direction& direction, const Weights& weights) {
+  for (std::size_t i = 0; i < kFeatures; ++i) {
+    const auto feature = static_cast<Feature>(i);
+    if (weights.Of(feature) != 0 && !Exists(feature, direction.flavour)) return NameOf(feature).data();
+  }
+  return nullptr;
+}
+
 int RunAll(const Arguments& arguments) {
   std::vector<Prepared> prepared;
   for (const Direction& direction : Directions()) {
@@ -140,6 +149,11 @@ int RunAll(const Arguments& arguments) {
       std::string wrong;
       if (!next.weights[i].Parse(direction.without[i], wrong) || !next.weights[i].Parse(arguments.weights, wrong)) {
         fmt::print(stderr, "unknown weight: {}\n", wrong);
+        return 2;
+      }
+      if (const char* const missing = Missing(direction, next.weights[i]); missing != nullptr) {
+        fmt::print(stderr, "{}: programs of this direction have no {}; choose others with --direction\n",
+                   direction.name, missing);
         return 2;
       }
     }

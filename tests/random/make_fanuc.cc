@@ -75,6 +75,7 @@ void Maker::FinishWords(ir::ProgramId program) {
         case WordOp::kSpeedLimit:
         case WordOp::kDwellSeconds:
         case WordOp::kRadiusOffset:
+        case WordOp::kCycleValue:
           word.flags |= ir::Word::kVanishesVacant | ir::Word::kRoundsValue;
           break;
         default:

@@ -34,6 +34,7 @@ Sample Generate(std::uint64_t seed, const Options& options) { return Maker(seed,
 
 Sample Maker::Make() {
   MakeSpaces();
+  ReadLibrary();
   MakeCells();
   drift_limit_ = 150;
   ChooseInitial();

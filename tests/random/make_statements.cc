@@ -32,6 +32,10 @@ bool Maker::Possible(Feature feature) const {
       return !subs_.empty();
     case Feature::kDiameter:
       return TransverseAxis() != 0xFF;
+    case Feature::kDrilling:
+      return TransverseAxis() == 0xFF;
+    case Feature::kHoleCycle:
+      return !library_.empty();
     default:
       return true;
   }
@@ -157,6 +161,12 @@ void Maker::Make(Feature feature) {
       return MakeModalCall();
     case Feature::kBlockRange:
       return MakeBlockRange();
+    case Feature::kDrilling:
+      return MakeDrilling();
+    case Feature::kHoleCycle:
+      return MakeHoleCycle();
+    case Feature::kLocalShift:
+      return MakeLocalShift();
     default:
       NCPORT_BUG("{} is no statement", NameOf(feature));
   }

@@ -225,6 +225,45 @@ class Maker {
   [[nodiscard]] bool Deep() const { return depth_ >= 4 || Exhausted(); }
   [[nodiscard]] bool Exhausted() const { return cost_ > budget_; }
 
+  // --- make_drilling.cc
+  /// A drilling cycle in force.
+  struct Holes {
+    std::uint8_t first = 0, second = 1, normal = 2;  // axes of the plane
+    ir::Cycle cycle = ir::Cycle::kDrill;
+    ir::ReturnLevel level = ir::ReturnLevel::kUnknown;
+    bool step = false;  // Q is stored
+    bool polar = false;
+    bool moved_zero = false;  // in another work offset than before
+  };
+  void MakeDrilling();
+  void MakeLocalShift();
+  void CycleWord(ir::BlockBuilder& block, ir::CycleField field, ir::ExprId value, bool named);
+  void HoleData(ir::BlockBuilder& block, Holes& holes, bool named, bool all);
+  void HolePlace(ir::BlockBuilder& block, const Holes& holes, bool both);
+  void Hole(Holes& holes, bool named, bool all);
+  void HoleRow(Holes& holes);
+  void HoleLoop(Holes& holes);
+  void Between(Holes& holes);
+  void NewCycle(Holes& holes);
+  void EndDrilling(const Holes& holes);
+
+  // --- make_cycles.cc
+  struct LibraryProgram {
+    std::string name;
+    ir::ProgramId id;
+  };
+  /// One place of a call.
+  struct CycleValue {
+    Interval range{0, 0, false};
+    ir::Type type = ir::Type::kReal;
+    bool given = false;
+  };
+  void ReadLibrary();
+  void MakeHoleCycle();
+  [[nodiscard]] const LibraryProgram* Library(std::string_view name) const;
+  std::vector<CycleValue> CycleValues(std::string_view name);
+  ir::CallId CycleCall(const LibraryProgram& program);
+
   // --- make_calls.cc
   void MakeCall();
   void MakeModalCall();
@@ -333,6 +372,7 @@ class Maker {
   ir::ExprBuilder expr_;
 
   std::vector<Subprogram> subs_;
+  std::vector<LibraryProgram> library_;
   std::vector<Place> shared_;         // cells of all programs
   std::vector<Place> counter_cells_;  // cells that count loops, each of one program
   Knowledge initial_;                 // what main programs start with

@@ -48,7 +48,9 @@ std::string ReasonOf(const diag::Sink& sink) {
     const std::string_view name = text.substr(0, end);
     const bool number = name.find_first_not_of("0123456789") == std::string_view::npos;
     const bool code = name[0] == 'G' && name.find_first_not_of("0123456789", 1) == std::string_view::npos;
-    reason += number ? "#" : end == 1 || code ? name : "*";
+    // Variables of the control are not the program's own.
+    const bool kept = end == 1 || code || name[0] == '$';
+    reason += number ? "#" : kept ? name : "*";
     text.remove_prefix(end);
   }
   return reason;

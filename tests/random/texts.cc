@@ -5,9 +5,12 @@
 #include <algorithm>
 
 #include "backends/fanuc/print.h"
+#include "backends/fanuc/print_expr.h"
 #include "backends/sinumerik/print.h"
 #include "base/text_buffer.h"
+#include "dialects/fanuc/words.h"
 #include "frontend/reader.h"
+#include "ir/builder.h"
 
 namespace ncport::tests::random {
 
@@ -20,9 +23,44 @@ bool HasHeader(const ir::Module& module, ir::BlockId block) {
   return false;
 }
 
+/// Words that the FANUC printer has no form for, since no translation makes them: as the text that they are.
+/// Empty: it has one.
+std::string TextOf(const ir::Module& module, const ir::Word& word, const dialects::Profile& profile) {
+  using ir::WordOp;
+  namespace words = dialects::fanuc;
+  const words::System system = *words::SystemOf(profile);
+  const auto value = [&](std::string_view letter, bool whole) {
+    TextBuffer out;
+    out.Append(letter);
+    backends::fanuc::ExprPrinter(module, profile, out)
+        .WordValue(word.value, whole ? backends::fanuc::NumberPlace::kInteger : backends::fanuc::NumberPlace::kWord);
+    return std::string(out.View());
+  };
+  const bool whole = (word.flags & ir::Word::kIncrements) != 0;
+  switch (word.op) {
+    case WordOp::kCycle: {
+      if (word.index == static_cast<std::uint8_t>(ir::Cycle::kNone)) return "G80";
+      for (const words::CycleRow& row : words::Cycles()) {
+        if (row.cycle == static_cast<ir::Cycle>(word.index) && (row.systems >> static_cast<unsigned>(system) & 1U) != 0)
+          return std::string(row.text);
+      }
+      return {};
+    }
+    case WordOp::kCycleValue:
+      return value(module.View(module.spellings[word.spelling].text),
+                   whole || word.index == static_cast<std::uint8_t>(ir::CycleField::kRepeats));
+    case WordOp::kCenter:
+      return whole ? value("K", true) : std::string();
+    case WordOp::kPolarMode:
+      return word.index != 0 ? "G16" : "G15";
+    default:
+      return {};
+  }
+}
+
 /// The module as the FANUC printer takes it: names without O, no word that it writes by itself (the O number, the G4 of
 /// a dwell).
-ir::Module ForPrinting(const ir::Module& source) {
+ir::Module ForPrinting(const ir::Module& source, const dialects::Profile& profile) {
   ir::Module module = source;
   const auto without_o = [&](StringId id) {
     std::string_view name = module.View(id);
@@ -36,8 +74,15 @@ ir::Module ForPrinting(const ir::Module& source) {
       for (const ir::WordId word : block.words) dwell = dwell || module.words[word].op == ir::WordOp::kDwellSeconds;
       const auto begin = static_cast<std::uint32_t>(module.words.Size());
       for (const ir::WordId word_id : block.words) {
-        const ir::Word word = module.words[word_id];
+        ir::Word word = module.words[word_id];
         if (word.op == ir::WordOp::kHeader || (dwell && word.op == ir::WordOp::kInert)) continue;
+        if (const std::string text = TextOf(module, word, profile); !text.empty()) {
+          const ir::Phase phase = word.phase;
+          word = {};
+          word.op = ir::WordOp::kInert;
+          word.phase = phase;
+          word.spelling = ir::AddSpelling(module, text, "");
+        }
         module.words.Add(word);
       }
       block.words = {begin, static_cast<std::uint32_t>(module.words.Size()) - begin};
@@ -66,11 +111,20 @@ void PrintFanuc(const ir::Module& module, FileId file, const dialects::Profile& 
 
 }  // namespace
 
+namespace {
+/// Cycles that ncport brings along are no text of the user.
+bool IsLibrary(const ir::Module& module, FileId file) {
+  return std::ranges::any_of(module.programs.All(),
+                             [&](const ir::Program& program) { return program.library && program.file == file; });
+}
+}  // namespace
+
 std::vector<TextFile> PrintAll(const ir::Module& module, const dialects::Profile& profile) {
   const bool fanuc = profile.language == dialects::Language::kFanuc;
-  const ir::Module made = fanuc ? ForPrinting(module) : ir::Module{};
+  const ir::Module made = fanuc ? ForPrinting(module, profile) : ir::Module{};
   std::vector<TextFile> texts;
   for (std::size_t i = 0; i < module.file_names.size(); ++i) {
+    if (IsLibrary(module, FileId{i})) continue;
     TextBuffer out;
     if (fanuc) {
       PrintFanuc(made, FileId{i}, profile, out);
@@ -100,7 +154,11 @@ std::vector<TextFile> PrintCalled(const ir::Module& module, ir::ProgramId main, 
     }
   }
   std::vector<TextFile> texts;
-  for (const ir::ProgramId program : called) texts.push_back(all[module.programs[program].file.value]);
+  for (const ir::ProgramId program : called) {
+    if (module.programs[program].library) continue;
+    const std::string_view name = module.View(module.file_names[module.programs[program].file.value]);
+    texts.push_back(*std::ranges::find(all, name, &TextFile::name));
+  }
   return texts;
 }
 

@@ -2,12 +2,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <vector>
 
 #include "backends/sinumerik/raise_words.h"
+#include "ir/analysis/axis_positions.h"
 #include "ir/analysis/flow_analyses.h"
+#include "ir/block_words.h"
 #include "ir/builder.h"
 #include "ir/make_word.h"
 #include "ir/transform/program_editor.h"
@@ -78,6 +81,9 @@ class Pass {
         uses_(FindUses(out.module)) {}
 
   bool Run() {
+    // As the blocks stand before they are taken apart.
+    if (input_.source_machine->thread_lead_from_feed && HasTaper())
+      positions_.emplace(module_, *input_.source_machine, analyses_);
     for (const ir::ProgramId program : module_.programs.Ids()) {
       ProgramEditor editor(module_, program, "arrange_words");
       for (const BlockId id : module_.programs[program].blocks) Arrange(program, id, editor);
@@ -91,9 +97,9 @@ class Pass {
   }
 
  private:
-  void Refuse(const Block& block, const Word& word, std::string_view what) {
+  void Refuse(const Block& block, const Word& word, std::string_view what, std::string_view help = {}) {
     ok_ = false;
-    sink_.Report(diag::Code::kNotExpressible, module_.RangeOf(block, word), what, input_.profile->name);
+    sink_.Report(diag::Code::kNotExpressible, module_.RangeOf(block, word), what, input_.profile->name).help = help;
   }
 
   void Assume(std::string_view what) {
@@ -176,7 +182,7 @@ class Pass {
       }
       words.push_back(word);
     }
-    ThreadLead(block, at, words);
+    ThreadLead(program, id, block, at, words);
     SetWords(id, words, dwell, editor);
   }
 
@@ -291,7 +297,8 @@ class Pass {
   }
 
   /// The lead is F there, the centre word of the axis here (fanuc-8.1, sinumerik-8.4).
-  void ThreadLead(const Block& block, const ir::ModalState& at, std::vector<Word>& words) {
+  void ThreadLead(ir::ProgramId program, BlockId id, const Block& block, const ir::ModalState& at,
+                  std::vector<Word>& words) {
     if (!input_.source_machine->thread_lead_from_feed) return;
     // No way need lead here: a word of the block itself counts all the same.
     ir::Motion motion = at.motion;
@@ -304,25 +311,66 @@ class Pass {
       }
     }
     if (motion != ir::Motion::kThread) return;
-    const Word* axis = nullptr;
+    std::vector<const Word*> axes;
     const Word* feed = nullptr;
     for (const Word& word : words) {
-      if (word.op == WordOp::kAxis) {
-        if (axis != nullptr) return Refuse(block, word, "a taper thread whose longer side the run decides");
-        axis = &word;
-      }
+      if (word.op == WordOp::kAxis) axes.push_back(&word);
       if (word.op == WordOp::kFeed) feed = &word;
     }
-    if (axis == nullptr) return;
-    if (feed == nullptr) return Refuse(block, *axis, "a thread whose lead stands in another block");
-    if (axis->index > 2) return Refuse(block, *axis, "a thread along this axis");
+    if (axes.empty()) return;
+    if (feed == nullptr) return Refuse(block, *axes[0], "a thread whose lead stands in another block");
+    for (const Word* axis : axes) {
+      if (axis->index > 2) return Refuse(block, *axis, "a thread along this axis");
+    }
+    const std::optional<std::uint8_t> along = axes.size() == 1 ? axes[0]->index : LongerSide(program, id, block, axes);
+    if (!along) return;
     Word lead = *feed;
     lead.op = WordOp::kCenter;
-    lead.index = axis->index;
+    lead.index = *along;
     lead.mode = ir::ValueMode::kStep;
     lead.phase = ir::DefaultPhaseOf(WordOp::kCenter);
     lead.spelling = 0;
     words.push_back(lead);
+  }
+
+  /// Axis of the longer way of a taper thread, whose letter the lead gets; none after a finding. In doubt between ways
+  /// of one length it is the last axis: Z.
+  std::optional<std::uint8_t> LongerSide(ir::ProgramId program, BlockId id, const Block& block,
+                                         const std::vector<const Word*>& axes) {
+    constexpr double kSame = 1e-9;  // mm
+    if (axes.size() != 2 || axes[0]->index == axes[1]->index) {
+      Refuse(block, *axes[2 < axes.size() ? 2 : 1], "a thread along more than two axes");
+      return std::nullopt;
+    }
+    if (uses_.rotation || uses_.scaling) {
+      Refuse(block, *axes[1], "a taper thread in a program that rotates or scales coordinates");
+      return std::nullopt;
+    }
+    const std::uint8_t first = std::min(axes[0]->index, axes[1]->index);
+    const std::uint8_t last = std::max(axes[0]->index, axes[1]->index);
+    const ir::analysis::Interval first_way = positions_->WayOf(program, id, first);
+    const ir::analysis::Interval last_way = positions_->WayOf(program, id, last);
+    if (last_way.low >= first_way.high - kSame) return last;
+    if (first_way.low >= last_way.high - kSame) return first;
+    const bool known = first_way.IsBounded() && last_way.IsBounded();
+    Refuse(block, *axes[1],
+           known ? "a taper thread whose longer side is not the same in every run"
+                 : "a taper thread between points that are not known here",
+           known ? "" : "name both axes in absolute numbers in the block before it: the lead goes by the longer side");
+    return std::nullopt;
+  }
+
+  [[nodiscard]] bool HasTaper() const {
+    for (const ir::ProgramId program : module_.programs.Ids()) {
+      for (const BlockId id : module_.programs[program].blocks) {
+        int axes = 0;
+        for (const WordId word : module_.blocks[id].words) axes += module_.words[word].op == WordOp::kAxis ? 1 : 0;
+        const Word* motion = ir::FindWord(module_, module_.blocks[id], WordOp::kMotion);
+        const auto own = motion == nullptr ? flow_.At(program, id).motion : static_cast<ir::Motion>(motion->index);
+        if (axes > 1 && own == ir::Motion::kThread) return true;
+      }
+    }
+    return false;
   }
 
   const RaiseInput& input_;
@@ -333,6 +381,7 @@ class Pass {
   ir::analysis::FlowAnalyses analyses_;
   const ir::analysis::ModalFlow& flow_;
   Uses uses_;
+  std::optional<ir::analysis::AxisPositions> positions_;  // where a thread is a taper
   bool ok_ = true;
 };
 

@@ -90,9 +90,42 @@ TEST_CASE("arrange_words: the lead of a thread is F there, the centre word of th
   const Passed passed = Arranged("  @m:1 : motion thread; axis Z = -10; feed = 1.5\n", lathe);
   CHECK(passed.findings.empty());
   CHECK(passed.text == "motion thread; axis Z = -10; feed = 1.5; center K step = 1.5\n");
-  Refused(Arranged("  @m:1 : motion thread; axis Z = -10; axis X = 5; feed = 1.5\n", lathe), "taper thread");
   Refused(Arranged("  @m:1 : feed = 1.5\n  @m:2 : motion thread; axis Z = -10\n", lathe), "lead stands in another");
   Refused(Arranged("  @m:1 : motion thread-increasing; axis Z = -10; feed = 1.5\n", lathe), "changing lead");
+}
+
+TEST_CASE("arrange_words: the lead of a taper goes under the letter of the longer side (sinumerik-8.4)") {
+  Setting lathe;
+  lathe.lathe = true;
+  const std::string start =
+      "  @m:1 : diameter diameter; units mm; distance absolute; motion rapid; axis X = 50; axis Z = 0\n";
+  const auto lead = [&](const std::string& blocks) {
+    const Passed passed = Arranged(blocks, lathe);
+    CHECK_MESSAGE(passed.findings.empty(), passed.messages);
+    const std::size_t at = passed.text.rfind("center ");
+    return at == std::string::npos ? std::string() : passed.text.substr(at, 8);
+  };
+  CHECK(lead(start + "  @m:2 : motion thread; axis X = 52; axis Z = -10; feed = 1.5\n") == "center K");
+  CHECK(lead(start + "  @m:2 : motion thread; axis X = 90; axis Z = -10; feed = 1.5\n") == "center I");
+  // 30 mm of diameter are 15 mm of way. As long as the other: either letter says the same.
+  CHECK(lead(start + "  @m:2 : motion thread; axis X = 80; axis Z = -15.001; feed = 1.5\n") == "center K");
+  CHECK(lead(start + "  @m:2 : motion thread; axis X = 80; axis Z = -14.999; feed = 1.5\n") == "center I");
+  CHECK(lead(start + "  @m:2 : motion thread; axis X = 80; axis Z = -15; feed = 1.5\n") == "center K");
+  // Increments need no start.
+  CHECK(lead("  @m:1 : diameter diameter; units mm; motion thread; axis X incremental = 2; axis Z incremental = -10; "
+             "feed = 1.5\n") == "center K");
+  // A value that is known from the run before.
+  CHECK(lead("  @m:1 : assign R[1] = 60\n" + start +
+             "  @m:3 : motion thread; axis X = R[1]; axis Z = -10; feed = 1.5\n") == "center K");
+  const std::string thread = "  @m:3 : motion thread; axis X = 52; axis Z = -10; feed = 1.5\n";
+  const std::string_view open = "points that are not known";
+  Refused(Arranged(thread, lathe), open);
+  Refused(Arranged(start + "  @m:2 : edge = 1\n" + thread, lathe), open);
+  Refused(Arranged(start + "  @m:2 : motion thread; axis X = R[1]; axis Z = -10; feed = 1.5\n", lathe), open);
+  Refused(Arranged(start + "  @m:2 skip 1 : axis X = 90\n" + thread, lathe), "not the same in every run");
+  Refused(Arranged(start + "  @m:2 : frame rotate-about; frame-angle = 5\n" + thread, lathe), "rotates or scales");
+  Refused(Arranged(start + "  @m:2 : motion thread; axis X = 1; axis Y = 1; axis Z = -10; feed = 1.5\n", lathe),
+          "more than two axes");
 }
 
 TEST_CASE("arrange_words: the reference point by way of the words' point, then the motion as it was") {

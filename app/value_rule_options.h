@@ -8,8 +8,8 @@
 
 namespace ncport::app {
 
-/// `config`: its [ranges] are promises of what arguments may be; null: none.
-check::ValueRuleOptions ValueRuleOptionsFor(const Context& context, const ProgramSet& set,
-                                            const dialects::Config* config);
+/// `config`: its [ranges] are promises of what arguments and cells hold where a run starts; null: none. NC2101 for a
+/// range of a checked program that names none of its parameters, and for a cell that the machine has not.
+check::ValueRuleOptions ValueRuleOptionsFor(Context& context, const ProgramSet& set, const dialects::Config* config);
 
 }  // namespace ncport::app

@@ -9,6 +9,7 @@
 #include "check/motion_words.h"
 #include "dialects/radius_registers.h"
 #include "ir/analysis/forward_flow.h"
+#include "ir/analysis/main_programs.h"
 
 namespace ncport::check {
 namespace {
@@ -32,7 +33,7 @@ class ToolFlow {
 
   State Entry(ProgramId program) const {
     // What nothing here calls is called with a tool.
-    return module_.programs[program].kind == ir::ProgramKind::kMain ? kNothing : kTool;
+    return ir::analysis::StartsAsMain(module_, program) ? kNothing : kTool;
   }
   static State Unknown(ProgramId) { return kTool; }
   static bool Join(BlockId, State& into, const State& from) {

@@ -92,7 +92,7 @@ class StillOnRule {
         return changes ? "where the tool changes" : nullptr;
       }
       case WordOp::kProgramEnd:
-        return module_.programs[program].kind == ir::ProgramKind::kMain ? "at the end of the program" : nullptr;
+        return subject_.IsMain(program) ? "at the end of the program" : nullptr;
       case WordOp::kPlane: {
         const ir::Plane plane = subject_.modal.Before(program, id).plane;
         const bool known = plane != ir::Plane::kUnknown;

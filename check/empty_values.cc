@@ -76,17 +76,6 @@ class EmptyValues {
   std::set<std::size_t> told_;  // once a program each
 };
 
-/// A first program that ends with a return and no end word is a macro: its callers are not here.
-bool MayBeCalled(const ir::Module& module, const ir::Program& program) {
-  if (program.kind != ir::ProgramKind::kMain) return false;
-  for (const BlockId block : program.blocks) {
-    for (const ir::WordId word : module.blocks[block].words) {
-      if (module.words[word].op == WordOp::kProgramEnd) return false;
-    }
-  }
-  return true;
-}
-
 }  // namespace
 
 void CheckEmptyValues(const Subject& subject, diag::Sink& sink) {
@@ -99,8 +88,8 @@ void CheckEmptyValues(const Subject& subject, diag::Sink& sink) {
   bool any = false;
   for (const Expr& expr : module.exprs.All()) any = any || starts_empty(expr);
   if (!any) return;
-  for (const ir::Program& program : module.programs.All()) {
-    if (MayBeCalled(module, program)) return;
+  for (const ir::ProgramId program : module.programs.Ids()) {
+    if (module.programs[program].kind == ir::ProgramKind::kMain && !subject.IsMain(program)) return;
   }
   EmptyValues(subject, sink).Run();
 }

@@ -109,7 +109,7 @@ class FeedFlow {
     }
     std::vector<ProgramId> open;
     for (const ProgramId program : module_.programs.Ids()) {
-      const bool main = module_.programs[program].kind == ir::ProgramKind::kMain;
+      const bool main = subject_.IsMain(program);
       // What nothing here calls may be called with any state.
       if (!main && called[program.value] == 0) entered_[program.value] = 1;
       open.push_back(program);

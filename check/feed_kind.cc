@@ -30,9 +30,7 @@ class FeedKindFlow {
 
   explicit FeedKindFlow(const Subject& subject) : subject_(subject), module_(subject.module) {}
 
-  State Entry(ProgramId program) const {
-    return module_.programs[program].kind == ir::ProgramKind::kMain ? kNone : kAnything;
-  }
+  State Entry(ProgramId program) const { return subject_.IsMain(program) ? kNone : kAnything; }
   static State Unknown(ProgramId) { return kAnything; }
   static bool Join(BlockId, State& into, const State& from) {
     const State old = into;

@@ -106,9 +106,7 @@ void CheckCallDepth(const Subject& subject, diag::Sink& sink) {
   for (const ir::ProgramId program : subject.module.programs.Ids()) {
     // Only a main program stands at the first level for sure; circles have their own rule.
     const std::uint32_t depth = subject.calls.DepthOf(program);
-    if (subject.module.programs[program].kind != ir::ProgramKind::kMain ||
-        depth == ir::analysis::CallGraph::kUnbounded || depth <= most)
-      continue;
+    if (!subject.IsMain(program) || depth == ir::analysis::CallGraph::kUnbounded || depth <= most) continue;
     for (const ir::analysis::CallSite& site : subject.calls.SitesOf(program)) {
       if (!site.callee.Valid() || subject.calls.DepthOf(site.callee) + 1 != depth) continue;
       diag::Diagnostic& finding = sink.Report(

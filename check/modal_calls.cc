@@ -105,7 +105,7 @@ std::optional<double> AlarmWithoutModalCall(const ir::Module& module, ir::Progra
 void CheckCallsWithoutModalCall(const Subject& subject, ir::ProgramId program, diag::Sink& sink) {
   const ir::Module& module = subject.module;
   // A subprogram may be called with a modal call of programs that are not here.
-  if (module.programs[program].kind != ir::ProgramKind::kMain) return;
+  if (!subject.IsMain(program)) return;
   std::map<std::uint32_t, std::optional<double>> alarms;  // per cycle
   for (const BlockId id : module.programs[program].blocks) {
     const ir::Block& block = module.blocks[id];

@@ -14,6 +14,7 @@
 #include "check/plane_axes.h"
 #include "check/rules.h"
 #include "ir/analysis/forward_flow.h"
+#include "ir/analysis/main_programs.h"
 
 namespace ncport::check {
 namespace {
@@ -38,9 +39,7 @@ class ScaleFlow {
 
   explicit ScaleFlow(const ir::Module& module) : module_(module) {}
 
-  State Entry(ProgramId program) const {
-    return {module_.programs[program].kind == ir::ProgramKind::kMain, {1, 1, 1}, {}};
-  }
+  State Entry(ProgramId program) const { return {ir::analysis::StartsAsMain(module_, program), {1, 1, 1}, {}}; }
   static State Unknown(ProgramId) { return {}; }
   static bool Join(BlockId, State& into, const State& from) {
     if (into == from || !into.known) return false;

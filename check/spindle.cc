@@ -2,6 +2,7 @@
 #include "check/motion_words.h"
 #include "check/rules.h"
 #include "ir/analysis/forward_flow.h"
+#include "ir/analysis/main_programs.h"
 
 namespace ncport::check {
 namespace {
@@ -37,9 +38,7 @@ class SpindleFlow {
   }
 
   // For ForwardFlow. What nothing here calls may be called with a spindle that turns.
-  State Entry(ir::ProgramId program) const {
-    return module_.programs[program].kind == ir::ProgramKind::kMain ? kStand : kEither;
-  }
+  State Entry(ir::ProgramId program) const { return ir::analysis::StartsAsMain(module_, program) ? kStand : kEither; }
   static State Unknown(ir::ProgramId) { return kEither; }
   static bool Join(BlockId, State& into, const State& from) {
     const State joined = into | from;

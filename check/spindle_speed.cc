@@ -7,6 +7,7 @@
 #include "check/motion_words.h"
 #include "check/rules.h"
 #include "ir/analysis/forward_flow.h"
+#include "ir/analysis/main_programs.h"
 
 namespace ncport::check {
 namespace {
@@ -59,7 +60,7 @@ class SpindleFlow {
 
   State Entry(ProgramId program) const {
     // What nothing here calls is called with any state.
-    return {module_.programs[program].kind == ir::ProgramKind::kMain ? kIdle : kAnything, {}};
+    return {ir::analysis::StartsAsMain(module_, program) ? kIdle : kAnything, {}};
   }
   static State Unknown(ProgramId) { return {kAnything, {}}; }
   static bool Join(BlockId, State& into, const State& from) {

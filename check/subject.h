@@ -9,6 +9,7 @@
 #include "dialects/profile.h"
 #include "ir/analysis/call_graph.h"
 #include "ir/analysis/cfg.h"
+#include "ir/analysis/main_programs.h"
 #include "ir/analysis/modal_state.h"
 #include "ir/machine.h"
 #include "ir/module.h"
@@ -26,6 +27,9 @@ struct Subject {
   ir::analysis::FlowGraphs graphs;
   ir::analysis::CallGraph calls;
   ir::analysis::ModalFlow modal;
+
+  /// True if a run starts in the program with nothing given: no tool, no spindle, no feed.
+  [[nodiscard]] bool IsMain(ir::ProgramId program) const { return ir::analysis::StartsAsMain(module, program); }
 
   [[nodiscard]] SourceRange PlaceOf(ir::BlockId block) const;
   [[nodiscard]] SourceRange PlaceOf(ir::BlockId block, const ir::Word& word) const;

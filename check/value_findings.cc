@@ -211,6 +211,8 @@ std::vector<diag::Note> ValueRule::Reasons(const Site& site, ExprId expr, Lookup
       notes.push_back({{}, fmt::format("{} is empty here", name)});
     } else if (check::TextOf(value) != "any number") {
       notes.push_back({{}, fmt::format("{} is {} here", name, check::TextOf(value))});
+    } else if (place.op == ExprOp::kCell && !called && value.Has(Interval::kEntry)) {
+      notes.push_back({{}, fmt::format("{} is as the caller gives it, and no caller is known here", name)});
     }
   }
   if (called && !call_named)

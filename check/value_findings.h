@@ -27,6 +27,7 @@ struct ValueRuleOptions {
   std::string domain_alarm;            // of a function outside of its domain, whole; empty: none is certain
   std::string test_example;            // how a program of the language tests a value first; {0} is the value
   std::vector<ir::analysis::DeclaredRange> declared;
+  std::vector<ir::analysis::DeclaredCell> declared_cells;
   bool all = false;  // also kPossible
 };
 

@@ -73,6 +73,7 @@ ir::analysis::RangeStatistics CheckValues(const ir::Module& module, const ir::Ma
   AllRules all(rules);
   ir::analysis::RangeOptions range_options;
   range_options.declared = options.declared;
+  range_options.declared_cells = options.declared_cells;
   const auto statistics = ir::analysis::FindValueRanges(module, machine, graphs, calls, range_options, all);
   findings.Report(sink);
   for (const auto& rule : rules) rule->Finish(sink);

@@ -6,6 +6,7 @@
 #include <set>
 #include <unordered_map>
 
+#include "ir/analysis/main_programs.h"
 #include "ir/analysis/value_flow.h"
 
 namespace ncport::ir::analysis {
@@ -149,7 +150,7 @@ ValueState StartAnalysis::EntryUnknown(const Context& context) {
 
 ValueState StartAnalysis::EntryOfStart(const Context& context) {
   ValueState entry = EntryUnknown(context);
-  const bool main = module_.programs[context.program].kind == ProgramKind::kMain;
+  const bool main = StartsAsMain(module_, context.program);
   const std::vector<Slot>& shared = slots_.Shared();
   for (std::uint32_t i = 0; i < shared.size(); ++i) {
     if (!shared[i].level) continue;
@@ -165,10 +166,15 @@ ValueState StartAnalysis::EntryOfStart(const Context& context) {
     entry.cells[slot].flags |= Interval::kEntry;
     for (const DeclaredRange& declared : options_.declared) {
       if (declared.parameter != parameter || !(declared.low <= declared.high)) continue;
-      // A call that leaves it out passes 0, whatever is promised of the others.
-      const Interval promised{std::fmin(declared.low, 0), std::fmax(declared.high, 0), Interval::kEntry};
+      const Interval promised{declared.low, declared.high, Interval::kEntry};
       entry.cells[slot] = Converted(promised, module_.variables[parameter].type, machine_);
     }
+  }
+  for (const DeclaredCell& declared : options_.declared_cells) {
+    if (declared.program.Valid() && declared.program != context.program) continue;
+    const std::uint32_t slot = slots_.Of(declared.space, declared.cell);
+    if (slot == SlotMap::kNone || !(declared.low <= declared.high)) continue;
+    entry.cells[slot] = {declared.low, declared.high, Interval::kEntry};
   }
   return entry;
 }
@@ -370,7 +376,7 @@ std::vector<ProgramId> StartsOf(const Module& module, const CallGraph& calls) {
   for (const ProgramId program : module.programs.Ids()) {
     const Program& record = module.programs[program];
     if (record.library) continue;
-    if (open || record.kind == ProgramKind::kMain || !called.contains(program.value)) starts.push_back(program);
+    if (open || StartsAsMain(module, program) || !called.contains(program.value)) starts.push_back(program);
   }
   return starts;
 }

@@ -85,8 +85,17 @@ struct DeclaredRange {
   double low = 0, high = 0;
 };
 
+/// The same of a cell: what it holds where a run starts in `program`, in any program if that is none.
+struct DeclaredCell {
+  ProgramId program;
+  SpaceId space;
+  std::uint32_t cell = 0;
+  double low = 0, high = 0;
+};
+
 struct RangeOptions {
   std::vector<DeclaredRange> declared;
+  std::vector<DeclaredCell> declared_cells;
   std::uint32_t contexts_per_program = 24;  // more calls of one program are taken together
   std::uint64_t steps_per_block = 200;  // budget; beyond it calls are taken together, beyond it again nothing is said
 };

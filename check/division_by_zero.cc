@@ -46,7 +46,10 @@ class DivisionByZero final : public ValueRule {
   /// is used as it came, a way that brings 0, a test that lets it through. What the program computes itself needs none.
   static Certainty CertaintyOf(const Interval& divisor) {
     if (divisor.IsZero()) return Certainty::kCertain;
-    if (!divisor.Has(Interval::kInput)) return Certainty::kLikely;
+    // Where no bound is left at all (X=(X+A/X)/2 in a loop) the 0 is as made up as the rest.
+    constexpr double kLargest = 1073741824.0;
+    const bool lost = divisor.low <= -kLargest && divisor.high >= kLargest && !divisor.Has(Interval::kZeroSeen);
+    if (!divisor.Has(Interval::kInput)) return lost ? Certainty::kPossible : Certainty::kLikely;
     const bool at_bound = divisor.low == 0 || divisor.high == 0;
     const bool sign = divisor.Has(Interval::kEntry) || divisor.Has(Interval::kZeroSeen) ||
                       (divisor.Has(Interval::kTested) && at_bound);

@@ -1,5 +1,6 @@
 #include "check/endings.h"
 
+#include "ir/block_words.h"
 #include "ir/never_alarms.h"
 #include "ir/word_values.h"
 
@@ -39,6 +40,14 @@ bool MayEndInside(const ir::Module& module, ir::BlockId first, ir::BlockId last)
     for (const ir::WordId word : block.words) {
       if (MayEnd(module, module.words[word])) return true;
     }
+  }
+  return false;
+}
+
+bool StopsInside(const ir::Module& module, ir::BlockId first, ir::BlockId last) {
+  for (std::uint32_t i = first.value; i <= last.value; ++i) {
+    const ir::Block& block = module.blocks[ir::BlockId{std::size_t{i}}];
+    if (ir::HasWord(module, block, WordOp::kStop) || ir::HasWord(module, block, WordOp::kOptionalStop)) return true;
   }
   return false;
 }

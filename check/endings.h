@@ -9,4 +9,7 @@ namespace ncport::check {
 /// stops or alarms. Of moves it is not asked whether their geometry holds.
 [[nodiscard]] bool MayEndInside(const ir::Module& module, ir::BlockId first, ir::BlockId last);
 
+/// True if a block there stops for the operator, who decides how often it goes on.
+[[nodiscard]] bool StopsInside(const ir::Module& module, ir::BlockId first, ir::BlockId last);
+
 }  // namespace ncport::check

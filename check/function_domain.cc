@@ -32,7 +32,7 @@ class FunctionDomain final : public ValueRule {
     for (std::size_t i = 0; i < count; ++i) {
       if (!args[i].HasNumber()) return;
     }
-    if (!MayFail(function, args)) return;
+    if (!MayFail(function, args) || MissesByRounding(function, expr, args[0], lookup)) return;
     const bool too_large = function == Function::kExp || function == Function::kSquare;
     const diag::Code code = too_large ? diag::Code::kOverflow : diag::Code::kOutOfDomain;
     const Certainty certainty = CertaintyOf(function, args, count);
@@ -84,6 +84,35 @@ class FunctionDomain final : public ValueRule {
         return a.low < -1e154 || a.high > 1e154;
       default:
         return false;
+    }
+  }
+
+  /// The bounds of an interval are rounded outward: SQRT(R*R-Z*Z) at Z = R reaches a little below 0, and X/R a little
+  /// beyond 1, where the values of the program do not. A value that is known is what the control computes.
+  [[nodiscard]] bool MissesByRounding(Function function, const Expr& expr, const Interval& a, Lookup& lookup) const {
+    constexpr double kRoundings = 1e-14;  // some dozens of them, relative to what is added
+    if (a.IsPoint()) return false;
+    if (function == Function::kAsin || function == Function::kAsinPositive || function == Function::kAcos)
+      return a.low >= -1 - kRoundings && a.high <= 1 + kRoundings;
+    return function == Function::kSqrt && a.high >= 0 &&
+           a.low >= -kRoundings * SizeOf(input_.module.Item(expr.b), lookup);
+  }
+
+  /// The largest value among those that are added.
+  [[nodiscard]] double SizeOf(ExprId id, Lookup& lookup) const {
+    const Expr& expr = input_.module.exprs[id];
+    switch (expr.op) {
+      case ExprOp::kGroup:
+      case ExprOp::kConvert:
+        return SizeOf(ExprId{std::size_t{expr.a}}, lookup);
+      case ExprOp::kAdd:
+      case ExprOp::kSubtract:
+        return std::fmax(SizeOf(ExprId{std::size_t{expr.a}}, lookup), SizeOf(ExprId{std::size_t{expr.b}}, lookup));
+      default: {
+        const Interval value = lookup.Evaluate(id);
+        const double size = std::fmax(std::fabs(value.low), std::fabs(value.high));
+        return std::isfinite(size) ? size : 0;
+      }
     }
   }
 

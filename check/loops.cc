@@ -93,7 +93,8 @@ class Loops final : public ValueRule {
       case WordOp::kWhile:
         return Test({program, id, block.link, id, seen ? truth->second : Interval::None(), true}, at, sink);
       case WordOp::kLoop:
-        if (!LeavesElsewhere(graph, id, block.link)) Endless(at, id, false, sink, {});
+        if (!LeavesElsewhere(graph, id, block.link) && !StopsInside(input_.module, id, block.link))
+          Endless(at, id, false, sink, {});
         return;
       case WordOp::kUntil:
         return Test({program, block.link, id, id, seen ? truth->second : Interval::None(), false}, at, sink);
@@ -115,7 +116,10 @@ class Loops final : public ValueRule {
     const bool seen = loop.truth.HasNumber();
     if (LeavesElsewhere(graphs_.Of(loop.program), loop.first, loop.last)) return;
     const bool always = seen && loop.truth.IsPoint() && (loop.truth.low == 1) == loop.goes_on;
-    if (always && IsConstant(block)) return Endless(at, loop.test, false, sink, {});
+    if (always && IsConstant(block)) {
+      if (!StopsInside(input_.module, loop.first, loop.last)) Endless(at, loop.test, false, sink, {});
+      return;
+    }
     if (Frozen(loop.program, loop.first, loop.last, loop.test)) return Endless(at, loop.test, true, sink, {});
     const ir::Word& word = input_.module.words[block.words[0]];
     const bool may_go_on = seen && (loop.goes_on ? loop.truth.high == 1 : loop.truth.low == 0);

@@ -13,7 +13,7 @@ namespace {
 using ir::WordOp;
 
 /// Words that do something. An end word, a stop or a mark that control never comes to is no mistake: programs are
-/// written with both, and a stop behind an alarm is the belt to its braces.
+/// written with both, and a stop behind an alarm is the belt to its braces, with or without one of the preprocessing.
 bool DoesSomething(const ir::Module& module, const ir::Block& block) {
   const auto does = [&](ir::WordId id) {
     switch (const WordOp op = module.words[id].op; op) {
@@ -21,6 +21,7 @@ bool DoesSomething(const ir::Module& module, const ir::Block& block) {
       case WordOp::kReturn:
       case WordOp::kRestart:
       case WordOp::kStop:
+      case WordOp::kPreprocessStop:
       case WordOp::kFileMark:
       case WordOp::kHeader:
       case WordOp::kDefine:

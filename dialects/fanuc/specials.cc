@@ -109,6 +109,11 @@ constexpr SpecialRow kSpecials[] = {
     {"G112", S::kRefused, kMazak, {0, 0, 0}, "M S T B for the other system", "mazak-lathe-2.3"},
     {"G113", S::kRefused, kMazak, {0, 0, 0}, "hobbing off", "mazak-lathe-2.3"},
     {"G114.3", S::kRefused, kMazak, {0, 0, 0}, "hobbing", "mazak-lathe-2.3"},
+    {"G70", S::kRefusedByHaas, kMills, {0, 0, 0}, "bolt circle", "fanuc-13"},
+    {"G71", S::kRefusedByHaas, kMills, {0, 0, 0}, "bolt arc", "fanuc-13"},
+    {"G72", S::kRefusedByHaas, kMills, {0, 0, 0}, "bolt holes on a line", "fanuc-13"},
+    {"G150", S::kRefusedByHaas, kMills, {0, 0, 0}, "pocket", "fanuc-13"},
+    {"G187", S::kRefusedByHaas, kMills | kA, {0, 0, 0}, "smoothness", "fanuc-13"},
     {"G117", S::kRefused, kMills | kMazak, {0, 0, 0}, "M functions during motion", "mazak-lathe-2.3"},
     {"G118", S::kRefused, kMazak, {0, 0, 0}, "M functions during motion", "mazak-lathe-2.3"},
 };

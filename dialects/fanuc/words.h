@@ -64,6 +64,7 @@ enum class Special : std::uint8_t {
   kMazatrolOff,          // G52.5
   kQuiet,                // no effect on a trace; takes words of its block (P Q R) with it
   kRefused,              // known, and not to be run: tilted planes, polygon turning, measuring, other system ...
+  kRefusedByHaas,        // the same for codes that Haas controls alone have
 };
 struct SpecialRow {
   std::string_view text;  // "G52"

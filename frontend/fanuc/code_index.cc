@@ -32,6 +32,9 @@ CodeIndex::CodeIndex(const dialects::Profile& profile, words::System system) {
     if (words::FindSpecial(system, row.text) != &row) continue;
     // M97 is a call on Haas controls only; on Mazak it ends macro interruption (mazak-lathe-1.1).
     if (row.special == words::Special::kLocalSubprogram && !profile.fanuc.local_call.Or(false)) continue;
+    if (row.special == words::Special::kRefusedByHaas &&
+        !profile.fanuc.variant.Is(dialects::FanucSettings::Variant::kHaas))
+      continue;
     Add(row.text, {.special = &row});
   }
   for (const words::CycleRow& row : words::Cycles()) {

@@ -47,6 +47,7 @@ bool Lowering::Replay(const Recipe& recipe, std::span<const Token> tokens, std::
   index_depth_ = 0;
   word_ = nullptr;
   skips_ = false;
+  repeated_ = false;
   for (const Token& token : tokens) {
     if (static_cast<TokenKind>(token.kind) != TokenKind::kWordValue || token.sub != 'G') continue;
     const double tenths = std::floor(token.number * 10 + 0.5);  // any number of digits may stand there
@@ -89,6 +90,7 @@ bool Lowering::Finish() {
     // Card 5: a block is a macro statement or NC words.
     return Fail(diag::Code::kNotAlone, *statement_, "give the statement a block of its own");
   }
+  DropRepeated();
   Context context;
   if (!Scan(context)) return false;
   if (context.call != nullptr) return MacroCall(context);

@@ -35,6 +35,8 @@ class Lowering {
   /// Number and skip level only: for blocks that are refused.
   void ReplayHead(std::span<const Token> tokens, ir::Block& block);
   [[nodiscard]] const LineError& Error() const { return error_; }
+  /// True if Replay() went through and left a word out for which Error() warns.
+  [[nodiscard]] bool Repeated() const { return repeated_; }
   /// Comment that is the text of an alarm or message, by its number; kNoComment = none.
   static constexpr std::uint32_t kNoComment = 0xFFFFFFFFU;
   [[nodiscard]] std::uint32_t TextComment() const { return text_comment_; }
@@ -97,6 +99,8 @@ class Lowering {
   bool Mark(const Action& action);
 
   // Codes (lower_codes.cc).
+  [[nodiscard]] bool IsRepeated(const Pending& before, const Pending& pending) const;
+  void DropRepeated();
   bool Scan(Context& context);
   bool AddCode(const Pending& pending, const Context& context);
   bool AddSpecial(const Pending& pending, const Context& context);
@@ -166,6 +170,7 @@ class Lowering {
   std::uint8_t index_depth_ = 0;      // inside #[..]
   const Token* word_ = nullptr;       // letter of the word whose value is made
   bool skips_ = false;                // an inner skip mark stands in the block
+  bool repeated_ = false;             // an address stood twice
 
   // Caches over all blocks: numbers of the module's records.
   std::unordered_map<std::uint32_t, ir::SystemId> systems_;  // by number

@@ -23,16 +23,34 @@ bool MayRepeat(char letter) { return letter == 'G' || letter == 'M' || letter ==
 
 }  // namespace
 
+/// The same address again; on Mazak a second T is the next tool.
+bool Lowering::IsRepeated(const Pending& before, const Pending& pending) const {
+  return before.letter == pending.letter && !MayRepeat(pending.letter) &&
+         !(pending.letter == 'T' && profile_.fanuc.variant.Is(dialects::FanucSettings::Variant::kMazak));
+}
+
+/// Of an address that stands twice the last one counts; Haas raises an alarm, and the words of a macro call are
+/// arguments (fanuc-1, "Repeated address").
+void Lowering::DropRepeated() {
+  if (macro_block_ || skips_ || profile_.fanuc.variant.Is(dialects::FanucSettings::Variant::kHaas)) return;
+  for (std::size_t i = 1; i < pending_.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (!IsRepeated(pending_[k], pending_[i])) continue;
+      (void)Fail(Code::kDoubleWord, pending_[i], "the last one counts: take the other one out");
+      repeated_ = true;
+      pending_.erase(pending_.begin() + static_cast<std::ptrdiff_t>(k));
+      --i;
+      break;
+    }
+  }
+}
+
 bool Lowering::Scan(Context& context) {
   const bool mazak_lathe = system_ == words::System::kMazakT || system_ == words::System::kMazakM;
   for (std::size_t i = 0; i < pending_.size(); ++i) {
     Pending& pending = pending_[i];
-    for (std::size_t k = 0; k < i; ++k) {
-      const bool next_tool =
-          pending.letter == 'T' && profile_.fanuc.variant.Is(dialects::FanucSettings::Variant::kMazak);
-      if (context.call == nullptr && pending_[k].letter == pending.letter && !MayRepeat(pending.letter) && !next_tool) {
-        return Fail(Code::kDoubleWord, pending);
-      }
+    for (std::size_t k = 0; k < i && context.call == nullptr; ++k) {
+      if (IsRepeated(pending_[k], pending)) return Fail(Code::kDoubleWord, pending);
     }
     if (context.call != nullptr || (pending.letter != 'G' && pending.letter != 'M') || !IsLiteral(pending)) continue;
     const double number = NumberOf(pending);
@@ -298,6 +316,7 @@ bool Lowering::AddSpecial(const Pending& pending, const Context& context) {
     case Special::kExternalSubprogram:
     case Special::kMazatrolOn:
     case Special::kRefused:
+    case Special::kRefusedByHaas:
       return Fail(Code::kNotSupported, pending, nullptr);
   }
   return true;

@@ -41,6 +41,10 @@ bool Lowering::Whole(const Pending& pending) {
 }
 
 bool Lowering::Meaningless(const Pending& pending) {
+  // Whether U and W move incrementally without G91 there is a matter of the control (fanuc-8.2, 30i).
+  const bool by_g91 = system_ == words::System::kLatheB || system_ == words::System::kLatheC;
+  if (by_g91 && (pending.letter == 'U' || pending.letter == 'W'))
+    return Fail(Code::kNotSupported, pending, "not all controls take it: G91 with X or Z says the same");
   return Fail(Code::kUnknownAddress, pending, "no code of this block gives the letter a meaning");
 }
 

@@ -170,6 +170,12 @@ class Reader {
         Refuse(text, block, begin);
       } else {
         used_comment = lowering_.TextComment();
+        if (lowering_.Repeated()) {
+          const LineError& error = lowering_.Error();
+          const SourceRange at{file_, line, error.begin, error.begin + error.length};
+          sink_.ReportAs(diag::Severity::kWarning, error.code, at, text.substr(error.begin, error.length)).help =
+              error.help;
+        }
       }
     }
     AddComments(text, used_comment, block);

@@ -212,6 +212,10 @@ class Reader {
     const std::span<const Token> tokens = source_.Tokens();
     if (source_.Error() != nullptr) {
       error_ = *source_.Error();
+      if (error_.code == Code::kUnknownCode && IsFrameOf802S(text.substr(error_.begin, error_.length))) {
+        error_.code = Code::kNotSupported;
+        return &error_;
+      }
       if (ExplainNewName(tokens, text, error_, help_)) return &error_;
       // `DEF REAL RND`: an address of several letters without `=`, where it was to be a name.
       if (error_.code == Code::kMissingValue && error_.length > 1 && !tokens.empty() &&
@@ -259,6 +263,12 @@ class Reader {
     }
     if (state_.definitions_open && !lowering_.OnlyDefinitions()) CloseDefinitions(block);
     return nullptr;
+  }
+
+  /// G5 I1 J1 K1 and the frames of the smallest control (card 11).
+  [[nodiscard]] bool IsFrameOf802S(std::string_view code) const {
+    if (!profile_.sinumerik.family.Is(dialects::SinumerikSettings::Family::k802S)) return false;
+    return IsWord(code, "G5") || IsWord(code, "G158") || IsWord(code, "G258") || IsWord(code, "G259");
   }
 
   /// A word of the control that is more likely a slip: `Rl` for R1, DO behind WHILE.

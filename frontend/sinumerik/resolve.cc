@@ -10,6 +10,7 @@
 #include "dialects/sinumerik/words.h"
 #include "frontend/common/chars.h"
 #include "frontend/reader.h"
+#include "frontend/sinumerik/fitted_words.h"
 #include "frontend/sinumerik/reader.h"
 #include "frontend/sinumerik/resolver.h"
 #include "frontend/sinumerik/word_slips.h"
@@ -59,6 +60,7 @@ ir::ProgramId ProgramIndex::Find(std::string_view name) const {
 
 void ResolveNames(SourceFiles& files, ir::Module& module, const dialects::Profile& profile, diag::Sink& sink) {
   Resolver(files, module, profile, sink).Run();
+  CheckFittedWords(module, profile, sink);
 }
 
 void Resolver::Run() {

@@ -289,6 +289,12 @@ void Resolver::UnknownProgram(std::string_view name, const SourceRange& at) {
             : "a cycle of the control that ncport does not know; what it does is not looked at";
     return;
   }
+  using Family = dialects::SinumerikSettings::Family;
+  if (profile_.sinumerik.family.Is(Family::k802S) && UpperOf(name).starts_with("LCYC")) {
+    sink_.Report(Code::kNotSupported, at, name).help =
+        "a cycle of the control that ncport does not run; R100 to R149 hold its parameters";
+    return;
+  }
   diag::Diagnostic& finding = sink_.Report(Code::kUnknownProgram, at, name);
   if (const ForeignWord* foreign = FindForeignWord(name)) {
     finding.help = foreign->help;

@@ -33,6 +33,7 @@ enum class Special : std::uint8_t {
   kDwell,  // X U P: fanuc-8.1, mazak-lathe-2.6
   kData,   // G10 with L and P, until kDataEnd
   kDataEnd,
+  kStrokeCheck,     // G22: axis words and I J K beside it are limits of the machine, no move
   kLocalShift,      // G52: zero of all work systems, replaces the last one (fanuc-8.4)
   kPreset,          // axis words: the present position gets these values; S: largest speed (fanuc-8.4)
   kPresetReset,     // back to the work system without preset
@@ -63,6 +64,7 @@ enum class Special : std::uint8_t {
   kMazatrolOn,           // G53.5: MAZATROL coordinate system
   kMazatrolOff,          // G52.5
   kQuiet,                // no effect on a trace; takes words of its block (P Q R) with it
+  kQuietAlone,           // the same; axis words beside it are data, so they are refused
   kRefused,              // known, and not to be run: tilted planes, polygon turning, measuring, other system ...
   kRefusedByHaas,        // the same for codes that Haas controls alone have
 };

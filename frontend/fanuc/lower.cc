@@ -94,7 +94,7 @@ bool Lowering::Finish() {
   Context context;
   if (!Scan(context)) return false;
   if (context.call != nullptr) return MacroCall(context);
-  if (context.data) return DataSetting(context);
+  if (context.data != nullptr) return DataSetting(context);
   for (const Pending& pending : pending_) {
     if (!AddPending(pending, context)) return false;
   }

@@ -56,8 +56,9 @@ class Lowering {
   /// What the codes of the block make of its letters.
   struct Context {
     const Pending* call = nullptr;  // G65 G66 G66.1
+    const Pending* data = nullptr;  // G10, G22 with limits
     Special call_kind = Special::kMacroCall;
-    bool dwell = false, data = false, frame = false, rotation = false, scaling = false, preset = false;
+    bool dwell = false, frame = false, rotation = false, scaling = false, preset = false;
     bool extended_offset = false, subprogram = false, local_call = false, returns = false, quiet = false;
     bool reference = false, arc = false, thread = false, spindle = false, offset = false, diameter_switch = false;
     bool length_switch = false;   // G43, G44

@@ -167,29 +167,29 @@ bool Lowering::Return(const Context&, const Pending& pending) {
   return true;
 }
 
-// G10 writes offsets; none of them shows in a trace, but where the axes stand in the work system may change
-// (fanuc-8.9).
-bool Lowering::DataSetting(const Context&) {
+// G10 writes offsets, G22 the limits of the stroke check; none of them shows in a trace, but where the axes stand in
+// the work system may change (fanuc-8.1, 8.9).
+bool Lowering::DataSetting(const Context& context) {
+  const words::SpecialRow& row = *context.data->meaning.special;
   ir::Call call;
-  call.name = module_.strings.Intern("G10");
+  call.name = module_.strings.Intern(row.text);
   call.args.begin = static_cast<std::uint32_t>(module_.args.Size());
-  const Pending* at = nullptr;
+  const char* alone = row.special == Special::kData ? "G10 stands with its own words only"
+                                                    : "axis words beside G22 are limits: it stands with them alone";
   for (const Pending& pending : pending_) {
+    if (&pending == context.data) continue;
     if (pending.letter == 'G' && IsLiteral(pending)) {
-      if (pending.meaning.special != nullptr && pending.meaning.special->special == Special::kData) {
-        at = &pending;
-      } else if (pending.meaning.code == nullptr || pending.meaning.code->op != WordOp::kDistance) {
-        return Fail(Code::kNotAlone, pending, "G10 stands with its own words only");
-      } else {
-        AddCode(pending, {});
-      }
+      if (pending.meaning.code == nullptr || pending.meaning.code->op != WordOp::kDistance)
+        return Fail(Code::kNotAlone, pending, alone);
+      AddCode(pending, {});
       continue;
     }
     if (pending.letter == 'M' || pending.letter == 'T' || pending.letter == 'S' || pending.letter == kNameLetter ||
         pending.letter == kSkipLetter) {
-      return Fail(Code::kNotAlone, pending, "G10 stands with its own words only");
+      return Fail(Code::kNotAlone, pending, alone);
     }
-    if (pending.letter == 'L' && (!IsLiteral(pending) || NumberOf(pending) == 3 || NumberOf(pending) >= 50)) {
+    if (row.special == Special::kData && pending.letter == 'L' &&
+        (!IsLiteral(pending) || NumberOf(pending) == 3 || NumberOf(pending) >= 50)) {
       return Fail(Code::kNotSupported, pending, "tool life data and parameters");
     }
     ir::Arg arg;
@@ -203,9 +203,9 @@ bool Lowering::DataSetting(const Context&) {
     ++call.args.count;
   }
   const ir::CallId id = module_.calls.Add(call);
-  Word& word = AddWord(WordOp::kDataSetting, at->first, pending_.back().last);
+  Word& word = AddWord(WordOp::kDataSetting, context.data->first, pending_.back().last);
   word.extra = id.value;
-  word.spelling = SpellingOf("G10", "fanuc-8.9");
+  word.spelling = SpellingOf(row.text, row.rule);
   return true;
 }
 

@@ -96,7 +96,11 @@ bool Lowering::Scan(Context& context) {
           context.dwell = true;
           break;
         case Special::kData:
-          context.data = true;
+          context.data = &pending;
+          break;
+        case Special::kStrokeCheck:
+          if (NamesAxes() || FindLetter('I') != nullptr || FindLetter('J') != nullptr || FindLetter('K') != nullptr)
+            context.data = &pending;
           break;
         case Special::kLocalShift:
         case Special::kMirrorOn:
@@ -140,6 +144,11 @@ bool Lowering::Scan(Context& context) {
         case Special::kReturn:
           context.returns = true;
           break;
+        case Special::kQuietAlone:
+          // Smoothing and the like take axis words as data; none of these codes shares its block with a move
+          // (fanuc-8.1).
+          if (NamesAxes()) return Fail(Code::kNotAlone, pending, "give the move a block of its own");
+          [[fallthrough]];
         case Special::kQuiet:
           context.quiet = true;
           break;
@@ -302,6 +311,8 @@ bool Lowering::AddSpecial(const Pending& pending, const Context& context) {
     case Special::kMazatrolOff:
     case Special::kDataEnd:
     case Special::kQuiet:
+    case Special::kQuietAlone:
+    case Special::kStrokeCheck:
       add(WordOp::kInert, 0);
       return true;
     case Special::kData:

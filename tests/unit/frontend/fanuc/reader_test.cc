@@ -28,6 +28,17 @@ std::string Block(std::string_view text, bool resolve = false) {
   return all;
 }
 
+/// The finding on the one block `text`; empty: it is read.
+std::string Refusal(std::string_view text, std::string_view profile_name = "fanuc-mill") {
+  SourceFiles files;
+  diag::Sink sink;
+  ir::Module module;
+  const FileId file = files.Add("m.nc", "O1\n" + std::string(text) + "\n");
+  const dialects::Profile profile = dialects::BuiltIn(profile_name);
+  static_cast<void>(ReadFile(files, file, profile, {}, module, sink));
+  return sink.Empty() ? "" : sink.All().front().message;
+}
+
 TEST_CASE("numbers by the decimal-point rule (fanuc-2.2)") {
   CHECK(Block("N10G0X10Y-10.5Z.5") ==
         "N10 motion rapid; axis X = 10:real {increments}; axis Y = -10.5:real; axis Z = .5:real\n");
@@ -62,6 +73,15 @@ TEST_CASE("M98: repeats packed in front of four digits, in a word of their own, 
   CHECK(Block("M98P510001", true) == "call name O1 same-level calls O1 passes literal(51, computed)!implicit:real\n");
   CHECK(Block("M98P2L5") == "call name O2 same-level passes 5:real\n");
   CHECK(Block("M98P0002") == "call name O2 same-level\n");
+}
+
+TEST_CASE("axis words beside the stroke check are its limits, beside high-speed modes no move either (fanuc-8.1)") {
+  CHECK(Block("G22 X300. Z-5. I-300. K10.") ==
+        "data-setting name G22 (0 X: 300.:real, 1 Z: -5.:real, 2 I: -300.:real, 3 K: 10.:real)\n");
+  CHECK(Block("G90 G22") == "distance absolute; inert\n");
+  CHECK(Refusal("G0 G22 X300.") == "G0 must stand alone in its block");
+  CHECK(Refusal("G5.1 Q2 X0 Y0") == "G5.1 must stand alone in its block");
+  CHECK(Refusal("G8 P1") == "");
 }
 
 TEST_CASE("IF THEN, a slash inside a block, a computed GOTO") {

@@ -32,6 +32,12 @@ void SetAlarms(std::span<const AlarmRow> rows, ir::Machine& machine) {
   }
 }
 
+void AddComputedCode(std::string_view text, const ir::CodeMeaning& meaning, ir::Machine& machine) {
+  ir::CodeMeaning row = meaning;
+  if (!TenthsOf(text, row.tenths)) return;
+  (text.starts_with('G') ? machine.g_codes : machine.m_codes).push_back(row);
+}
+
 void SetComputedCodes(const CodeTable& table, ir::Machine& machine) {
   for (const CodeRow& row : table.Rows()) {
     std::uint32_t tenths = 0;

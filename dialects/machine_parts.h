@@ -17,6 +17,8 @@ struct AlarmRow {
 };
 void SetAlarms(std::span<const AlarmRow> rows, ir::Machine& machine);
 
+/// One more code by its text; none if that is no code. Call it before SetComputedCodes, which sorts them.
+void AddComputedCode(std::string_view text, const ir::CodeMeaning& meaning, ir::Machine& machine);
 /// Makes the G and M rows of the table known to programs that compute a code (`G#30`, `M=QU(5)`). Rows that need words
 /// of their block to mean something (G4) stay out: they cannot be known by number alone.
 void SetComputedCodes(const CodeTable& table, ir::Machine& machine);

@@ -93,6 +93,8 @@ void Runner::GatherComputed(const Word& word, double code, const std::vector<ir:
     }
     return session_.Alarm(ir::AlarmClass::kUnknownCode, fmt::format("code {:g} is not known", code));
   }
+  if (found->op == WordOp::kVerbatim)
+    return session_.Refuse(diag::Code::kCannotRun, fmt::format("code {:g} by a computed number", code));
   Word made = word;
   made.op = found->op;
   made.index = found->index;

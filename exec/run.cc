@@ -164,6 +164,15 @@ void Runner::ExecuteBlock(std::uint32_t index, std::uint16_t use) {
 
 void Runner::Settings(const ir::Block& block) {
   for (std::uint32_t index = block.words.begin; index < words_end_; ++index) {
+/// P of the block, read as a word of a cycle until the computed code was known; missing: 1 (fanuc-8.4).
+double Runner::TakeOffsetNumber() {
+  constexpr auto kField = static_cast<std::size_t>(ir::CycleField::kDwell);
+  if (!work_.HasField(ir::CycleField::kDwell)) return 1;
+  work_.cycle_fields &= ~(1U << kField);
+  work_.cycle_scaled &= ~(1U << kField);
+  return ir::ops::Round(work_.cycle_value[kField]);
+}
+
     const Word& word = session_.module.words[WordId{std::size_t{index}}];
     if (word.phase != Phase::kSetting) continue;
     session_.word = &word;
@@ -172,7 +181,9 @@ void Runner::Settings(const ir::Block& block) {
     if (session_.halted) return;
   }
   for (const Word& word : computed_) {
-    if (word.phase == Phase::kSetting) kinematics_.Set(word, -1, work_);
+    if (word.phase != Phase::kSetting) continue;
+    const bool extended = word.op == WordOp::kWorkOffset && word.index != 0;
+    kinematics_.Set(word, extended ? TakeOffsetNumber() : -1, work_);
   }
   session_.word = nullptr;
   kinematics_.FinishSettings(work_);

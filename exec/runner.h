@@ -72,6 +72,7 @@ class Runner {
   void Collect(const ir::Word& word, const Value& value);
   void CollectFrame(ir::FrameOp op);
   void Settings(const ir::Block& block);
+  double TakeOffsetNumber();
   void Actions(const ir::Block& block, ir::Phase phase);
   void FinishBlock(ir::BlockId id, std::uint32_t words_end);
   void AtLimit();

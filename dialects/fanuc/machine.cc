@@ -1,5 +1,7 @@
 #include "dialects/fanuc/machine.h"
 
+#include <utility>
+
 #include "dialects/fanuc/system_variables.h"
 #include "dialects/fanuc/words.h"
 #include "dialects/machine_parts.h"
@@ -34,6 +36,42 @@ void SetGroups(const CodeTable& table, ir::Machine& machine) {
       code = code * 10 + (digit - '0');
     }
     machine.groups.push_back({row.group, row.op, row.index, row.extra, code});
+  }
+}
+
+/// Codes beyond those of one meaning each, for numbers that programs compute (fanuc-5): of those that need words of
+/// their block a run takes G54.1 with its P, and refuses the others (kVerbatim).
+void SetOtherCodes(const Profile& profile, System system, ir::Machine& machine) {
+  using Op = ir::WordOp;
+  for (const SpecialRow& row : SpecialCodes()) {
+    if (FindSpecial(system, row.text) != &row) continue;
+    if (row.special == Special::kLocalSubprogram && !profile.fanuc.local_call.Or(false)) continue;
+    ir::CodeMeaning meaning{.op = Op::kVerbatim};
+    if (row.special == Special::kQuiet) meaning.op = Op::kInert;
+    if (row.special == Special::kCycleEnd)
+      meaning = {.op = Op::kCycle, .index = static_cast<std::uint8_t>(ir::Cycle::kNone)};
+    if (row.special == Special::kExtendedOffset) meaning = {.op = Op::kWorkOffset, .index = 1, .extra = 54};
+    AddComputedCode(row.text, meaning, machine);
+  }
+  for (const CycleRow& row : Cycles()) {
+    if (FindCycle(system, row.text) == &row) AddComputedCode(row.text, {.op = Op::kVerbatim}, machine);
+  }
+  const auto turns = [&](const Setting<std::string>& text, std::uint8_t index, ir::SpindleState state) {
+    if (!text.Known() || text->empty()) return;
+    const bool stop = state == ir::SpindleState::kStop;
+    AddComputedCode(*text,
+                    {.op = Op::kSpindle,
+                     .index = index,
+                     .extra = static_cast<std::uint32_t>(state),
+                     .phase = stop ? ir::Phase::kAfter : ir::Phase::kBefore},
+                    machine);
+  };
+  constexpr std::uint8_t kMain = 0, kSecond = 2, kLive = 3;
+  for (const auto& [words, index] : {std::pair{&profile.spindle, kMain}, std::pair{&profile.second_spindle, kSecond},
+                                     std::pair{&profile.live_spindle, kLive}}) {
+    turns(words->cw, index, ir::SpindleState::kCw);
+    turns(words->ccw, index, ir::SpindleState::kCcw);
+    turns(words->stop, index, ir::SpindleState::kStop);
   }
 }
 
@@ -118,6 +156,7 @@ void FillMachine(const Profile& profile, ir::Machine& machine) {
   SetAlarmNumbers(settings, machine);
   if (settings.variant.Is(Variant::kFanuc)) SetAlarms(kAlarms, machine);
   if (const std::optional<System> system = SystemOf(profile); system.has_value()) {
+    SetOtherCodes(profile, *system, machine);
     SetComputedCodes(Codes(*system), machine);
     SetGroups(Codes(*system), machine);
     SetUnits(*system, machine);

@@ -236,7 +236,10 @@ void Kinematics::Scale(BlockWork& work) {
   if ((work.scaled & BlockWork::kChamfer) != 0) work.chamfer *= length;
   if ((work.scaled & BlockWork::kContourAngle) != 0) work.contour_angle *= machine.increment;
   if ((work.scaled & BlockWork::kFrameAngle) != 0) work.frame_angle *= machine.increment;
-  if ((work.scaled & BlockWork::kStartAngle) != 0) work.start_angle *= 0.001;
+  if ((work.scaled & BlockWork::kStartAngle) != 0) {
+    if ((work.rounded_words & BlockWork::kStartAngle) != 0) work.start_angle = ir::ops::Round(work.start_angle);
+    work.start_angle *= 0.001;
+  }
   if ((work.scaled & BlockWork::kDwell) != 0) work.dwell *= 0.001;
   if ((work.scaled & BlockWork::kFeed) != 0) {
     const ir::Motion motion = channel_.modal.motion;

@@ -113,6 +113,7 @@ class Lowering {
   bool AddLetter(const Pending& pending, const Context& context, const dialects::fanuc::AddressRow& row);
   bool AddTool(const Pending& pending);
   bool AddFeed(const Pending& pending);
+  bool AddStartAngle(const Pending& pending, std::string_view rule);
   bool AddOption(const Pending& pending);
   bool AddCycleWord(const Pending& pending, const Context& context, bool& done);
   bool Meaningless(const Pending& pending);

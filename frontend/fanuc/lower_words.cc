@@ -129,6 +129,15 @@ bool Lowering::AddAxis(const Pending& pending, const Context& context, const wor
   return SetValue(word, pending, true);
 }
 
+// Q of a thread counts thousandths of a degree, as a variable too: #1=90000 is 90 degrees (fanuc-8.1).
+bool Lowering::AddStartAngle(const Pending& pending, std::string_view rule) {
+  Word& word = AddWord(WordOp::kStartAngle, pending);
+  word.spelling = SpellingOf("Q", rule);
+  if (!SetValue(word, pending, true)) return false;
+  if (!IsLiteral(pending) || !HasPoint(pending)) word.flags |= Word::kIncrements;
+  return true;
+}
+
 bool Lowering::AddFeed(const Pending& pending) {
   Word& word = AddWord(WordOp::kFeed, pending);
   std::uint8_t flags = 0;
@@ -265,11 +274,7 @@ bool Lowering::AddLetter(const Pending& pending, const Context& context, const w
       return field(ir::CycleField::kDwell, false, true);
     case 'Q':
       if (context.subprogram) return true;
-      if (context.thread) {
-        Word& word = AddWord(WordOp::kStartAngle, pending);
-        word.spelling = SpellingOf("Q", "fanuc-8.1");
-        return SetValue(word, pending, true);
-      }
+      if (context.thread) return AddStartAngle(pending, "fanuc-8.1");
       if (context.quiet || context.preset) return inert();
       return field(ir::CycleField::kStep, true);
     case 'L':
@@ -303,11 +308,7 @@ bool Lowering::AddCycleWord(const Pending& pending, const Context& context, bool
   if (letter.kind == CycleLetter::kPlain) return true;
   done = true;
   if (letter.kind == CycleLetter::kRefused) return Meaningless(pending);
-  if (letter.kind == CycleLetter::kStartAngle) {
-    Word& word = AddWord(WordOp::kStartAngle, pending);
-    word.spelling = SpellingOf(std::string(1, pending.letter), context.cycle->rule);
-    return SetValue(word, pending, true);
-  }
+  if (letter.kind == CycleLetter::kStartAngle) return AddStartAngle(pending, context.cycle->rule);
   // Mazak posts write the steps of grooves and threads with a point (mazak-lathe-2.5).
   const bool point =
       IsLiteral(pending) && HasPoint(pending) && profile_.fanuc.variant.Is(dialects::FanucSettings::Variant::kMazak);

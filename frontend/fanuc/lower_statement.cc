@@ -83,7 +83,12 @@ bool Lowering::DoStatement(const Action& action) {
       return true;
     case Step::kPrintValue: {
       const Token& format = At(action.last);
-      const ExprId parts[] = {Pop(), Implied(format.sub), Implied(format.digits)};
+      // A field that grows with its number (Haas) is one that holds the longest; blanks in front would fill it, and
+      // there are none by the profile (fanuc-10).
+      constexpr std::uint8_t kLongest = 16;
+      const bool grows = profile_.fanuc.variant.Is(dialects::FanucSettings::Variant::kHaas) &&
+                         !profile_.fanuc.print_leading_blanks.Or(false);
+      const ExprId parts[] = {Pop(), Implied(grows ? kLongest : format.sub), Implied(format.digits)};
       values_.push_back(
           List(ExprOp::kFunction, static_cast<std::uint32_t>(ir::Function::kFixedText), parts, ir::Type::kString, 0));
       return true;

@@ -4,6 +4,7 @@
 
 #include "base/result.h"
 #include "exec/evaluator.h"
+#include "ir/length_units.h"
 #include "ir/ops/arithmetic.h"
 #include "ir/ops/convert.h"
 #include "ir/ops/functions.h"
@@ -288,10 +289,25 @@ Value Evaluator::EvalFunction(const Expr& expr) {
     whole = whole && IsWhole(value.type);
   }
   if (session_.halted) return Value::Real(0);
+  if (function == ir::Function::kRoundToIncrement)
+    return Finished({ops::RoundToIncrement(args[0], WordIncrement())}, expr, false);
   // These keep the type of what they choose from; others give REAL unless the language types them INT.
   const bool keeps = function == ir::Function::kAbs || function == ir::Function::kMinimum ||
                      function == ir::Function::kMaximum || function == ir::Function::kBound;
   return Finished(ops::Apply(function, args, expr.count, machine_), expr, (keeps && whole) || expr.type == Type::kInt);
+}
+
+/// The least increment of the word whose value is being worked out; its block may settle the unit itself (fanuc-4.4).
+double Evaluator::WordIncrement() const {
+  ir::Units units = channel_.modal.units;
+  for (const ir::WordId id : module_.blocks[session_.block].words) {
+    const ir::Word& word = module_.words[id];
+    if (word.op == ir::WordOp::kUnits) units = static_cast<ir::Units>(word.index);
+  }
+  const ir::Word* word = session_.word;
+  const bool angle = word != nullptr && ((word->op == ir::WordOp::kAxis && ir::IsRotary(word->index)) ||
+                                         word->op == ir::WordOp::kFrameAngle || word->op == ir::WordOp::kContourAngle);
+  return angle || !ir::LengthsAreInches(units) ? machine_.increment : machine_.increment / 10;
 }
 
 Value Evaluator::Converted(const Value& value, Type type, std::uint32_t string_length) {

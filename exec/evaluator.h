@@ -56,6 +56,8 @@ class Evaluator {
   void AppendText(TextBuffer& buffer, const Value& value);
   [[nodiscard]] std::string_view TextOf(const Value& value) const { return texts_.View(value); }
 
+  /// Least increment of the word that is being evaluated, in its unit.
+  [[nodiscard]] double WordIncrement() const;
   /// The place that an expression names; kNone after an error.
   Place PlaceOf(ir::ExprId id);
   /// The first element of a variable, by its definition.

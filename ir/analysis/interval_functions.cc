@@ -78,7 +78,7 @@ Interval Apply(Function function, const Interval* args, std::size_t count, const
   }
   const Interval& a = args[0];
   Interval result;
-  if (points && count <= 3) {
+  if (points && count <= 3 && function != Function::kRoundToIncrement) {  // in inches it is a finer one
     double values[3] = {};
     for (std::size_t i = 0; i < count; ++i) values[i] = args[i].low;
     const ops::Number number = ops::Apply(function, values, count, machine);

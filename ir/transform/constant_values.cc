@@ -158,6 +158,7 @@ std::optional<ConstantValue> ConstantValues::Value(BlockId block, const Constant
       const auto function = static_cast<Function>(expr.a);
       constexpr std::size_t kMost = 3;
       if (!ops::IsNumeric(function) || expr.count > kMost) return std::nullopt;
+      if (function == Function::kRoundToIncrement) return std::nullopt;  // that of its address, which the unit decides
       double args[kMost] = {};
       bool whole = true;
       for (std::uint32_t i = 0; i < expr.count; ++i) {

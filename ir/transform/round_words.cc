@@ -10,6 +10,7 @@
 #include "ir/ops/arithmetic.h"
 #include "ir/plane_axes.h"
 #include "ir/transform/adapt_expressions.h"
+#include "ir/transform/rewrite_exprs.h"
 
 namespace ncport::ir::transform {
 
@@ -88,6 +89,7 @@ class Pass {
 
   void RoundWord(BlockId block, WordId id) {
     Word word = module_.words[id];
+    if (word.value.Valid()) ResolveRound(block, id, word);
     if ((word.flags & Word::kRoundsValue) == 0) return;
     word.flags = static_cast<std::uint8_t>(word.flags & ~Word::kRoundsValue);
     switch (word.op) {
@@ -119,6 +121,20 @@ class Pass {
       default:
         break;
     }
+    module_.words[id] = word;
+  }
+
+  /// ROUND in a word rounds to the increment of its address, whose unit is known here.
+  void ResolveRound(BlockId block, WordId id, Word& word) {
+    const ExprId value = RewriteExpr(module_, word.value, [&](Module& module, ExprId part) {
+      const Expr expr = module.exprs[part];
+      if (expr.op != ExprOp::kFunction || static_cast<Function>(expr.a) != Function::kRoundToIncrement) return part;
+      const std::optional<double> step = StepOf(block, word);
+      if (!step) return part;
+      return ExprBuilder(module).Unary(ExprOp::kGroup, RoundedTo(module, module.Item(expr.b), *step));
+    });
+    if (value == word.value) return;
+    word.value = value;
     module_.words[id] = word;
   }
 

@@ -123,6 +123,10 @@ void Auxiliary::Speed(const ir::Word& word, double value) {
   if (surface && channel_.modal.units == ir::Units::kInch) value *= ir::kMetersPerFoot;
   spindle->speed_known = true;
   spindle->speed = value;
+  if (surface) {
+    spindle->surface_known = true;
+    spindle->surface = value;
+  }
   Event& event = emitter_.Begin(surface ? EventKind::kSpindleSurface : EventKind::kSpindleSpeed);
   event.spindle = number;
   event.value = value;

@@ -71,7 +71,9 @@ struct Channel {
   struct Spindle {
     ir::SpindleState state = ir::SpindleState::kUnknown;
     bool speed_known = false;
-    double speed = 0;  // 1/min, or m/min in constant surface speed
+    double speed = 0;            // 1/min, or m/min in constant surface speed
+    bool surface_known = false;  // the last surface speed, m/min: a mode word without S brings it back
+    double surface = 0;
     bool limit_known = false;
     double limit = 0;     // 1/min
     double position = 0;  // degrees

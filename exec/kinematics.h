@@ -44,6 +44,7 @@ class Kinematics {
   void SetSpeedMode(const ir::Word& word, const BlockWork& work);
   void SetWorkOffset(const ir::WorkOffset& offset);
   void SetPath(ir::PathMode mode, bool one_block = false);
+  void TakeSurfaceSpeed(const BlockWork& work);
   void SetFeed(const BlockWork& work);
   void ShowComp();
   [[nodiscard]] double LengthFactor() const;  // of lengths as programmed, to mm

@@ -111,10 +111,22 @@ void Kinematics::SetFeedMode(ir::FeedMode mode) {
 /// speed of this moment into 1/min (sinumerik-8.8).
 void Kinematics::SetSpeedMode(const ir::Word& word, const BlockWork& work) {
   const auto mode = static_cast<ir::SpeedMode>(word.index);
+/// Without S the last surface speed is in force again (sinumerik-8.8, fanuc-8.1).
+void Kinematics::TakeSurfaceSpeed(const BlockWork& work) {
+  Channel::Spindle& spindle = channel_.spindles[0];
+  spindle.speed_known = false;
+  if (!spindle.surface_known || work.Has(BlockWork::kSpeed)) return;
+  spindle.speed_known = true;
+  spindle.speed = spindle.surface;
+  Event& event = emitter_.Begin(EventKind::kSpindleSurface);
+  event.value = spindle.speed;
+  emitter_.Send(event);
+}
+
   const bool was_surface = channel_.modal.speed_mode == ir::SpeedMode::kConstantSurface;
   channel_.modal.speed_mode = mode;
   if (mode == ir::SpeedMode::kConstantSurface) {
-    if (!was_surface) channel_.spindles[0].speed_known = false;
+    if (!was_surface) TakeSurfaceSpeed(work);
     if (session_.machine.surface_speed_per_revolution && !work.Has(BlockWork::kFeedMode))
       SetFeedMode(ir::FeedMode::kPerRevolution);
     return;

@@ -29,6 +29,8 @@ struct FrameLayers {
   double mirror_at[ir::kMaxAxes] = {};
 };
 
+constexpr bool IsHole(ir::Cycle cycle) { return cycle >= ir::Cycle::kDrill && cycle <= ir::Cycle::kCrossBore; }
+
 /// A canned cycle in force and the data that stay stored for it. Levels are workpiece coordinates in mm.
 struct CycleState {
   ir::Cycle cycle = ir::Cycle::kNone;

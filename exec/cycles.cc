@@ -13,7 +13,6 @@ using ir::Motion;
 
 namespace {
 
-constexpr bool IsHole(Cycle cycle) { return cycle >= Cycle::kDrill && cycle <= Cycle::kCrossBore; }
 constexpr bool IsLatheHole(Cycle cycle) { return cycle >= Cycle::kFacePeck && cycle <= Cycle::kCrossBore; }
 constexpr bool IsTurning(Cycle cycle) { return cycle >= Cycle::kTurn && cycle <= Cycle::kTurnFace; }
 

@@ -48,11 +48,12 @@ bool Kinematics::Move(const BlockWork& work) {
   std::memcpy(from_, channel_.base, sizeof from_);
   from_known_ = channel_.base_known;
   if (channel_.cycle.cycle != ir::Cycle::kNone && !work.Has(BlockWork::kMachineCoords)) {
-    if (work.Has(BlockWork::kReference)) {
-      session_.Alarm(ir::AlarmClass::kOther, "reference move while a cycle is active");  // PS0044
+    const bool reference = work.Has(BlockWork::kReference);
+    if (reference && IsHole(channel_.cycle.cycle)) {
+      session_.Alarm(ir::AlarmClass::kOther, "reference move while a drilling cycle is active");  // PS0044
       return false;
     }
-    return CycleMove(work);
+    if (!reference) return CycleMove(work);  // beside one the words are its own, also under a single cut of a lathe
   }
   if (work.cycle_fields != 0) {
     session_.Refuse(diag::Code::kCannotRun, "a word of a cycle while no cycle is in force");

@@ -102,6 +102,13 @@ bool Kinematics::StoreHole(const BlockWork& work, std::uint8_t axis, bool lathe)
       if (!state.level_known) {
         session_.Refuse(diag::Code::kCannotRun, "an incremental depth without a level");
         return false;
+bool Kinematics::Drills(const BlockWork& work) const {
+  const Cycle cycle = channel_.cycle.cycle;
+  if (!IsHole(cycle) || work.Has(BlockWork::kMachineCoords | BlockWork::kReference)) return false;
+  return (work.axes & (IsLatheHole(cycle) ? 0xFFFFU : 7U)) != 0 || work.HasField(CycleField::kLevel) ||
+         work.Has(BlockWork::kRadius);
+}
+
       }
       depth += state.level;
     }

@@ -29,6 +29,8 @@ class Kinematics {
   void Finish();
   /// The run ends in an alarm.
   void Abandon() { contour_.Abandon(); }
+  /// The block makes a hole: what else it says happens at its place, in front of it.
+  [[nodiscard]] bool Drills(const BlockWork& work) const;
   /// Value of one least increment in the units in force, for numbers without decimal point.
   [[nodiscard]] double Increment(bool rotary) const;
   /// A computed value on its way to its address (Machine::word_error).

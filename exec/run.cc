@@ -144,7 +144,9 @@ void Runner::ExecuteBlock(std::uint32_t index, std::uint16_t use) {
     if (session_.halted) return;
     if ((use & kUseSetting) != 0 || work_.has != 0 || work_.centers != 0 || work_.cycle_fields != 0) Settings(block);
     if (session_.halted) return;
-    if ((use & kUseBefore) != 0) Actions(block, Phase::kBefore);
+    drills_ = kinematics_.Drills(work_);
+    if ((use & kUseBefore) != 0 || (drills_ && ((use & kUseAfter) != 0 || !computed_.empty())))
+      Actions(block, Phase::kBefore);
     if (session_.halted) return;
     session_.word = nullptr;
     if (work_.axes != 0 || work_.centers != 0 || work_.has != 0 || work_.cycle_fields != 0) {
@@ -189,6 +191,12 @@ double Runner::TakeOffsetNumber() {
   kinematics_.FinishSettings(work_);
 }
 
+/// Functions of a block with a hole act where it lies, all of them in front of it (fanuc-8.7).
+Phase Runner::PhaseOf(const Word& word) const {
+  const bool function = word.op == WordOp::kAux || word.op == WordOp::kSpindle;
+  return drills_ && function && word.phase == Phase::kAfter ? Phase::kBefore : word.phase;
+}
+
 void Runner::Actions(const ir::Block& block, Phase phase) {
   const bool edge = work_.Has(BlockWork::kEdge);
   // A speed limit must be in force before the speed that it limits, the change word brings in the tool that its block
@@ -213,7 +221,7 @@ void Runner::Actions(const ir::Block& block, Phase phase) {
   for (int round = phase == Phase::kBefore && early ? 0 : 1; round <= last; ++round) {
     for (std::uint32_t index = block.words.begin; index < words_end_; ++index) {
       const Word& word = session_.module.words[WordId{std::size_t{index}}];
-      if (word.phase != phase || round_of(word.op) != round) continue;
+      if (PhaseOf(word) != phase || round_of(word.op) != round) continue;
       const Value& value = values_[index - block.words.begin];
       if (word.value.Valid() && value.IsVacant() && (word.flags & Word::kVanishesVacant) != 0) continue;
       session_.word = &word;
@@ -222,7 +230,7 @@ void Runner::Actions(const ir::Block& block, Phase phase) {
     }
   }
   for (const Word& word : computed_) {
-    if (word.phase == phase)
+    if (PhaseOf(word) == phase)
       auxiliary_.Act(word, word.value.Valid() ? evaluator_.Eval(word.value) : Value::Vacant(), edge);
   }
 }

@@ -74,6 +74,7 @@ class Runner {
   void Settings(const ir::Block& block);
   double TakeOffsetNumber();
   void Actions(const ir::Block& block, ir::Phase phase);
+  [[nodiscard]] ir::Phase PhaseOf(const ir::Word& word) const;
   void FinishBlock(ir::BlockId id, std::uint32_t words_end);
   void AtLimit();
   void EndRun();
@@ -148,6 +149,7 @@ class Runner {
   // Of the block in work.
   BlockWork work_;
   std::vector<Value> values_;           // per word
+  bool drills_ = false;                 // it makes a hole
   std::uint32_t words_end_ = 0;         // words from here on were cut off (When, SkipRest)
   std::vector<ir::Word> computed_;      // words made by codes that were computed
   std::vector<Value> arguments_;        // of a call

@@ -75,10 +75,11 @@ bool DrillingFlow::HoldMore() {
 }
 
 /// Words of the spindle, those that act in front of the move or those behind it; what taps leave.
-void DrillingFlow::Turn(BlockId id, Drilling& state, bool behind) const {
+void DrillingFlow::Turn(BlockId id, Drilling& state, bool drills, bool behind) const {
   for (const WordId word_id : module_.blocks[id].words) {
     const Word& word = module_.words[word_id];
-    if ((word.phase == Phase::kAfter || word.phase == Phase::kLast) != behind) continue;
+    const bool at_place = drills && word.op == WordOp::kSpindle;  // as all functions beside a hole
+    if ((!at_place && (word.phase == Phase::kAfter || word.phase == Phase::kLast)) != behind) continue;
     if (word.op == WordOp::kSpindle && word.index == 0) state.spindle = static_cast<SpindleState>(word.extra);
     if (word.op == WordOp::kSpindlePosition) state.spindle = SpindleState::kPositioned;
     if (word.op == WordOp::kComputedM) state.spindle = SpindleState::kUnknown;
@@ -87,7 +88,7 @@ void DrillingFlow::Turn(BlockId id, Drilling& state, bool behind) const {
 
 SpindleState DrillingFlow::SpindleAt(BlockId id) const {
   Drilling state = *Before(id);
-  Turn(id, state, false);
+  Turn(id, state, true, false);
   return state.spindle;
 }
 
@@ -95,7 +96,7 @@ void DrillingFlow::Transfer(ProgramId program, BlockId id, Drilling& state) {
   const ModalState at = analyses_.Modal().At(program, id);
   const DrillingWords parts = WordsOf(id, AxesOf(at.plane).normal, IsHole(state.cycle));
   Store(program, parts, at.distance == Distance::kIncremental, state, nullptr);
-  Turn(id, state, false);
+  Turn(id, state, parts.Drills(), false);
   const bool left = state.cycle == At(Cycle::kTapLeft);
   if (parts.Drills() && (left || state.cycle == At(Cycle::kTap))) {
     const SpindleState tapped = left ? SpindleState::kCcw : SpindleState::kCw;
@@ -106,7 +107,7 @@ void DrillingFlow::Transfer(ProgramId program, BlockId id, Drilling& state) {
       state.spindle = SpindleState::kUnknown;
     }
   }
-  Turn(id, state, true);
+  Turn(id, state, parts.Drills(), true);
 }
 
 std::optional<Drilling> DrillingFlow::Into(const analysis::CallSite&, analysis::CallMoment moment,

@@ -84,7 +84,7 @@ class DrillingFlow {
  private:
   /// Fields to hold in locals; false: there are no more of them.
   bool HoldMore();
-  void Turn(BlockId id, Drilling& state, bool behind) const;
+  void Turn(BlockId id, Drilling& state, bool drills, bool behind) const;
   ExprId Local(ProgramId program, std::uint8_t field);
 
   Module& module_;

@@ -173,7 +173,7 @@ class Pass {
              ProgramEditor& editor) {
     if (at.plane == Plane::kUnknown || at.distance == Distance::kUnknown)
       return Refuse(block, "a drilling cycle whose plane or distance mode is not one here");
-    std::vector<Word> first, last;
+    std::vector<Word> functions, first, last;
     for (const WordId word_id : block.words) {
       const Word word = module_.words[word_id];
       const bool of_hole = IsHoleWord(word) || word.op == WordOp::kAxis || word.op == WordOp::kRadius ||
@@ -182,7 +182,9 @@ class Pass {
       if (word.op == WordOp::kCenter) return Refuse(block, "centre words in a cycle");
       if (word.op == WordOp::kDwellSeconds && parts.Drills()) return Refuse(block, "a dwell beside a hole");
       const bool behind = word.phase == Phase::kAfter || word.phase == Phase::kLast;
-      (behind ? last : first).push_back(word);
+      // Behind a move anywhere else, beside a hole they act where it lies, in front of it.
+      const bool at_place = parts.Drills() && (word.op == WordOp::kAux || word.op == WordOp::kSpindle);
+      (!behind ? first : at_place ? functions : last).push_back(word);
     }
     bool start = true;
     const auto put = [&](const std::vector<Word>& words) {
@@ -194,6 +196,7 @@ class Pass {
       if (start) put({});
       editor.Remove(id);
     };
+    if (!functions.empty()) put(functions);
     // The level at which the cycle begins is read in the unit of the block.
     const bool settles = std::ranges::any_of(first, [](const Word& word) { return word.op == WordOp::kUnits; });
     if (settles && !assigns.empty()) {

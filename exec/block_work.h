@@ -42,6 +42,7 @@ struct BlockWork {
     kScaleEnd = 1U << 27U,
     kMirrorEnd = 1U << 28U,  // its axis words name axes
     kPoint = 1U << 29U,      // the number of a reference point
+    kRigid = 1U << 30U,      // the taps that follow are rigid
     kFrameEnds = kRotateEnd | kScaleEnd | kMirrorEnd,
   };
 

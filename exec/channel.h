@@ -34,6 +34,7 @@ constexpr bool IsHole(ir::Cycle cycle) { return cycle >= ir::Cycle::kDrill && cy
 /// A canned cycle in force and the data that stay stored for it. Levels are workpiece coordinates in mm.
 struct CycleState {
   ir::Cycle cycle = ir::Cycle::kNone;
+  bool rigid = false;  // taps turn with their feed (M29), from the word for it until the cycles end
   bool initial_known = false, level_known = false, depth_known = false, step_known = false, dwell_known = false;
   double initial = 0;  // level of the drilling axis before the cycle
   double level = 0;

@@ -14,6 +14,9 @@ using ir::Motion;
 namespace {
 
 constexpr bool IsLatheHole(Cycle cycle) { return cycle >= Cycle::kFacePeck && cycle <= Cycle::kCrossBore; }
+constexpr bool IsTap(Cycle cycle) {
+  return cycle == Cycle::kTap || cycle == Cycle::kTapLeft || cycle == Cycle::kFaceTap || cycle == Cycle::kCrossTap;
+}
 constexpr bool IsTurning(Cycle cycle) { return cycle >= Cycle::kTurn && cycle <= Cycle::kTurnFace; }
 
 }  // namespace
@@ -22,8 +25,50 @@ constexpr bool IsTurning(Cycle cycle) { return cycle >= Cycle::kTurn && cycle <=
 void Kinematics::BeginCycle(const BlockWork& work) {
   CycleState& state = channel_.cycle;
   const bool keeps = IsHole(state.cycle) && IsHole(work.cycle) && IsLatheHole(state.cycle) == IsLatheHole(work.cycle);
+  const bool rigid = (state.rigid || work.Has(BlockWork::kRigid)) && work.cycle != Cycle::kNone;
   if (!keeps) state = {};
   state.cycle = work.cycle;
+  state.rigid = rigid;
+}
+
+/// The spindle stops: from here on it turns as the cycle feeds (fanuc-8.7).
+void Kinematics::ArmRigidTaps() {
+  channel_.cycle.rigid = true;
+  const ir::SpindleState now = channel_.spindles[0].state;
+  if (now == ir::SpindleState::kCw || now == ir::SpindleState::kCcw) Turn(ir::SpindleState::kStop);
+}
+
+/// In and out with the lead that feed and speed give; below 0 for a left-hand tap.
+void Kinematics::RigidTap(std::uint8_t axis, bool left) {
+  if (session_.halted) return;
+  const CycleState state = channel_.cycle;
+  if (state.step_known && state.step != 0) return session_.Refuse(diag::Code::kCannotRun, "tapping with pecks");
+  const Channel::Spindle& spindle = channel_.spindles[0];
+  const bool per_minute = channel_.feed_mode == ir::FeedMode::kPerMinute;
+  const bool turns = spindle.speed_known && spindle.speed > 0 && channel_.modal.speed_mode == ir::SpeedMode::kRpm;
+  if (!channel_.feed_known || channel_.feed <= 0 || channel_.feed_mode == ir::FeedMode::kInverseTime ||
+      (per_minute && !turns)) {
+    return session_.Refuse(diag::Code::kCannotRun, "rigid tapping whose lead no feed and speed give");
+  }
+  const double lead = per_minute ? channel_.feed / spindle.speed : channel_.feed;
+  const auto tap = [&](double target) {
+    if (session_.halted) return;
+    std::memcpy(from_, channel_.base, sizeof from_);
+    from_known_ = channel_.base_known;
+    target_[axis] = target;
+    moved_ = AxisBit(axis);
+    contour_.OtherMotion();
+    if (session_.halted) return;
+    Adopt();
+    if (session_.halted) return;
+    Event& event = MotionEvent(EventKind::kTap);
+    event.value = left ? -lead : lead;
+    NoteDirection(event);
+    emitter_.Send(event);
+  };
+  tap(state.depth);
+  Pause(state.dwell);
+  tap(state.level);
 }
 
 void Kinematics::Go(std::uint16_t axes, const double* targets, EventKind kind) {
@@ -58,6 +103,13 @@ void Kinematics::Turn(ir::SpindleState state) {
   Event& event = emitter_.Begin(EventKind::kSpindle);
   event.spindle_state = state;
   emitter_.Send(event);
+}
+
+bool Kinematics::Drills(const BlockWork& work) const {
+  const Cycle cycle = channel_.cycle.cycle;
+  if (!IsHole(cycle) || work.Has(BlockWork::kMachineCoords | BlockWork::kReference)) return false;
+  return (work.axes & (IsLatheHole(cycle) ? 0xFFFFU : 7U)) != 0 || work.HasField(CycleField::kLevel) ||
+         work.Has(BlockWork::kRadius);
 }
 
 bool Kinematics::CycleMove(const BlockWork& work) {
@@ -102,13 +154,6 @@ bool Kinematics::StoreHole(const BlockWork& work, std::uint8_t axis, bool lathe)
       if (!state.level_known) {
         session_.Refuse(diag::Code::kCannotRun, "an incremental depth without a level");
         return false;
-bool Kinematics::Drills(const BlockWork& work) const {
-  const Cycle cycle = channel_.cycle.cycle;
-  if (!IsHole(cycle) || work.Has(BlockWork::kMachineCoords | BlockWork::kReference)) return false;
-  return (work.axes & (IsLatheHole(cycle) ? 0xFFFFU : 7U)) != 0 || work.HasField(CycleField::kLevel) ||
-         work.Has(BlockWork::kRadius);
-}
-
       }
       depth += state.level;
     }
@@ -202,6 +247,10 @@ void Kinematics::DrillHole(std::uint8_t axis, bool lathe) {
   if (peck && (!state.step_known || state.step == 0)) {
     if (!lathe) return session_.Alarm(ir::AlarmClass::kOther, "peck drilling without a depth of cut");  // PS0045
     cycle = Cycle::kDrillDwell;  // without Q in one stroke
+  }
+  if (state.rigid && IsTap(cycle)) {
+    RigidTap(axis, cycle == Cycle::kTapLeft);
+    return back();
   }
   switch (cycle) {
     case Cycle::kDrill:

@@ -44,9 +44,9 @@ class Kinematics {
   // modal.cc
   void SetFeedMode(ir::FeedMode mode);
   void SetSpeedMode(const ir::Word& word, const BlockWork& work);
+  void TakeSurfaceSpeed(const BlockWork& work);
   void SetWorkOffset(const ir::WorkOffset& offset);
   void SetPath(ir::PathMode mode, bool one_block = false);
-  void TakeSurfaceSpeed(const BlockWork& work);
   void SetFeed(const BlockWork& work);
   void ShowComp();
   [[nodiscard]] double LengthFactor() const;  // of lengths as programmed, to mm
@@ -104,6 +104,8 @@ class Kinematics {
   bool CycleMove(const BlockWork& work);
   bool Drill(const BlockWork& work);
   void DrillHole(std::uint8_t axis, bool lathe);
+  void ArmRigidTaps();
+  void RigidTap(std::uint8_t axis, bool left);
   bool StoreHole(const BlockWork& work, std::uint8_t axis, bool lathe);
   bool TurningCycle(const BlockWork& work);
   void Go(std::uint16_t axes, const double* targets, EventKind kind);

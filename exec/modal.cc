@@ -80,6 +80,10 @@ void Kinematics::Set(const ir::Word& word, double extension, BlockWork& work) {
       channel_.polar_words = word.index != 0;
       break;
     case WordOp::kCycle:
+      if (word.extra != Id<void>::kNone) {
+        work.has |= BlockWork::kRigid;
+        break;
+      }
       work.cycle = static_cast<ir::Cycle>(word.index);
       work.has |= BlockWork::kCycleWord;
       break;
@@ -107,10 +111,6 @@ void Kinematics::SetFeedMode(ir::FeedMode mode) {
   if (session_.machine.feed_type_change_drops_feed) channel_.feed_known = false;
 }
 
-/// Constant surface speed may bring the feed per revolution with it; a word that freezes the speed turns the surface
-/// speed of this moment into 1/min (sinumerik-8.8).
-void Kinematics::SetSpeedMode(const ir::Word& word, const BlockWork& work) {
-  const auto mode = static_cast<ir::SpeedMode>(word.index);
 /// Without S the last surface speed is in force again (sinumerik-8.8, fanuc-8.1).
 void Kinematics::TakeSurfaceSpeed(const BlockWork& work) {
   Channel::Spindle& spindle = channel_.spindles[0];
@@ -123,6 +123,10 @@ void Kinematics::TakeSurfaceSpeed(const BlockWork& work) {
   emitter_.Send(event);
 }
 
+/// Constant surface speed may bring the feed per revolution with it; a word that freezes the speed turns the surface
+/// speed of this moment into 1/min (sinumerik-8.8).
+void Kinematics::SetSpeedMode(const ir::Word& word, const BlockWork& work) {
+  const auto mode = static_cast<ir::SpeedMode>(word.index);
   const bool was_surface = channel_.modal.speed_mode == ir::SpeedMode::kConstantSurface;
   channel_.modal.speed_mode = mode;
   if (mode == ir::SpeedMode::kConstantSurface) {
@@ -281,6 +285,7 @@ void Kinematics::FinishSettings(BlockWork& work) {
                        work.rounded_centers != 0 || work.cycle_scaled != 0 || work.cycle_rounded != 0 ||
                        work.scaled_factors != 0;
   if (written) Scale(work);
+  if (work.Has(BlockWork::kRigid)) ArmRigidTaps();
   if (work.Has(BlockWork::kCycleWord)) BeginCycle(work);
   if (work.Has(BlockWork::kFeed)) SetFeed(work);
   if (work.Has(BlockWork::kFrame | BlockWork::kFrameEnds)) ApplyFrame(work);

@@ -55,6 +55,10 @@ bool Kinematics::Move(const BlockWork& work) {
     }
     if (!reference) return CycleMove(work);  // beside one the words are its own, also under a single cut of a lathe
   }
+  if (channel_.cycle.rigid && channel_.cycle.cycle == ir::Cycle::kNone && work.axes != 0) {
+    session_.Refuse(diag::Code::kCannotRun, "a move between the word for rigid tapping and its cycle");
+    return false;
+  }
   if (work.cycle_fields != 0) {
     session_.Refuse(diag::Code::kCannotRun, "a word of a cycle while no cycle is in force");
     return false;

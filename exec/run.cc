@@ -164,8 +164,6 @@ void Runner::ExecuteBlock(std::uint32_t index, std::uint16_t use) {
   if ((use & kUseLast) != 0 || !computed_.empty()) Last(block, words_end_);
 }
 
-void Runner::Settings(const ir::Block& block) {
-  for (std::uint32_t index = block.words.begin; index < words_end_; ++index) {
 /// P of the block, read as a word of a cycle until the computed code was known; missing: 1 (fanuc-8.4).
 double Runner::TakeOffsetNumber() {
   constexpr auto kField = static_cast<std::size_t>(ir::CycleField::kDwell);
@@ -175,6 +173,8 @@ double Runner::TakeOffsetNumber() {
   return ir::ops::Round(work_.cycle_value[kField]);
 }
 
+void Runner::Settings(const ir::Block& block) {
+  for (std::uint32_t index = block.words.begin; index < words_end_; ++index) {
     const Word& word = session_.module.words[WordId{std::size_t{index}}];
     if (word.phase != Phase::kSetting) continue;
     session_.word = &word;

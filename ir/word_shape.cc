@@ -46,7 +46,7 @@ WordShape ShapeOf(WordOp op) {
     case WordOp::kFrame:
       return {IndexKind::kFrame};
     case WordOp::kCycle:
-      return {IndexKind::kCycle};
+      return {IndexKind::kCycle, ExtraKind::kNumber, true};
     case WordOp::kCycleValue:
       return {IndexKind::kCycleField};
     case WordOp::kDataSetting:

@@ -74,7 +74,7 @@ constexpr SpecialRow kSpecials[] = {
     {"G25", S::kQuiet, kMills | kLathes, {19, 8, 0}, "spindle fluctuation check", "fanuc-8.1"},
     {"G26", S::kQuiet, kMills | kLathes, {19, 8, 0}, "spindle fluctuation check", "fanuc-8.1"},
     {"G103", S::kQuietAlone, kMills | kA, {0, 0, 0}, "look-ahead limit (Haas)", "fanuc-13"},
-    {"M29", S::kQuiet, kMills | kLathes, {0, 0, 0}, "rigid tapping", "fanuc-8.7"},
+    {"M29", S::kRigidTaps, kMills | kLathes, {0, 0, 0}, "rigid tapping", "fanuc-8.7"},
 
     {"G2.2", S::kRefused, kMills, {1, 0, 0}, "involute", "fanuc-8.3"},
     {"G3.2", S::kRefused, kMills, {1, 0, 0}, "involute", "fanuc-8.3"},

@@ -63,6 +63,7 @@ enum class Special : std::uint8_t {
   kCycleEnd,             // G80
   kMazatrolOn,           // G53.5: MAZATROL coordinate system
   kMazatrolOff,          // G52.5
+  kRigidTaps,            // M29: G84 and G74 that follow tap rigidly (fanuc-8.7)
   kQuiet,                // no effect on a trace; takes words of its block (P Q R) with it
   kQuietAlone,           // the same; axis words beside it are data, so they are refused
   kRefused,              // known, and not to be run: tilted planes, polygon turning, measuring, other system ...

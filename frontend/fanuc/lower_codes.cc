@@ -308,6 +308,11 @@ bool Lowering::AddSpecial(const Pending& pending, const Context& context) {
       return true;  // the call is the last word of the block
     case Special::kReturn:
       return Return(context, pending);
+    case Special::kRigidTaps: {
+      constexpr std::uint32_t kNumber = 29;
+      add(WordOp::kCycle, static_cast<std::uint8_t>(ir::Cycle::kRigidTap)).extra = kNumber;
+      return true;
+    }
     case Special::kMazatrolOff:
     case Special::kDataEnd:
     case Special::kQuiet:

@@ -31,6 +31,7 @@ bool DrillingFlow::Join(BlockId, Drilling& into, const Drilling& from) const {
   if (callers) into.cycle = Drilling::kCallers;
   for (std::uint8_t i = 0; i < Drilling::kFields; ++i) join(into.fields[i], from.fields[i]);
   if (into.start != from.start) into.start = Drilling::Start::kOpen;
+  into.rigid = into.rigid || from.rigid;
   if (into.spindle != from.spindle) into.spindle = SpindleState::kUnknown;
   return into != before;
 }
@@ -113,13 +114,14 @@ void DrillingFlow::Transfer(ProgramId program, BlockId id, Drilling& state) {
 std::optional<Drilling> DrillingFlow::Into(const analysis::CallSite&, analysis::CallMoment moment,
                                            const Drilling& at) const {
   if (moment == analysis::CallMoment::kModalStart) return std::nullopt;
-  if (!IsHole(at.cycle)) return Drilling{.cycle = at.cycle, .spindle = at.spindle};
+  if (!IsHole(at.cycle)) return Drilling{.cycle = at.cycle, .rigid = at.rigid, .spindle = at.spindle};
   return moment == analysis::CallMoment::kModalRun ? Unknown({}) : Drilling{.spindle = at.spindle};
 }
 
 Drilling DrillingFlow::Back(const analysis::CallSite&, const Drilling& at, const Drilling& exit) const {
   Drilling behind{.cycle = exit.cycle == Drilling::kNoCycle ? Drilling::kNoCycle : Drilling::kOpen};
   if (exit.cycle == Drilling::kCallers) behind = at;
+  behind.rigid = exit.rigid;
   behind.spindle = exit.spindle;
   return behind;
 }
@@ -129,6 +131,10 @@ DrillingWords DrillingFlow::WordsOf(BlockId id, std::uint8_t normal, bool in_cyc
   const Block& block = module_.blocks[id];
   for (const WordId word_id : block.words) {
     const Word& word = module_.words[word_id];
+    if (word.op == WordOp::kCycle && word.extra != Id<void>::kNone) {
+      parts.rigid = true;
+      continue;
+    }
     if (word.op == WordOp::kCycle) parts.cycle = word.index;
     if (word.op == WordOp::kMotion) parts.motion = true;
   }
@@ -196,10 +202,17 @@ std::optional<double> DrillingFlow::LiteralOf(ExprId id) const {
 void DrillingFlow::Store(ProgramId program, const DrillingWords& parts, bool incremental, Drilling& state,
                          std::vector<std::pair<ExprId, ExprId>>* assigns) {
   if (parts.cycle != Drilling::kUnset) {
+    const bool rigid = (state.rigid || parts.rigid) && IsHole(parts.cycle);
     if (!IsHole(parts.cycle) || !IsHole(state.cycle)) state = {.spindle = state.spindle};
     state.cycle = parts.cycle;
+    state.rigid = rigid;
+    if (rigid && state.cycle == At(Cycle::kTap)) state.cycle = At(Cycle::kRigidTap);
+    if (rigid && state.cycle == At(Cycle::kTapLeft)) state.cycle = At(Cycle::kRigidTapLeft);
+  } else if (parts.rigid) {
+    state.rigid = true;
+    state.spindle = SpindleState::kStop;
   } else if (parts.motion) {
-    state = {.spindle = state.spindle};
+    state = {.rigid = state.rigid && !IsHole(state.cycle), .spindle = state.spindle};
   }
   if (!IsHole(state.cycle)) return;
   // A place, a depth or a level begins the first hole: there the initial level is taken.

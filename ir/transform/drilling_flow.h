@@ -25,6 +25,7 @@ struct Drilling {
   std::uint32_t cycle = kNoCycle;
   std::uint32_t fields[kFields] = {kUnset, kUnset, kUnset, kUnset};
   Start start = Start::kNone;                     // kTaken: a local holds the level at which the cycle began
+  bool rigid = false;                             // taps are rigid, on some way at least
   SpindleState spindle = SpindleState::kUnknown;  // of the main spindle, if it is one on all ways
   bool operator==(const Drilling&) const = default;
 };
@@ -36,6 +37,7 @@ bool IsHole(std::uint32_t cycle);
 struct DrillingWords {
   std::uint32_t cycle = Drilling::kUnset;
   bool motion = false, level = false;
+  bool rigid = false;                          // the word for rigid tapping
   const Word* values[Drilling::kFields] = {};  // as written
   const Word* repeats = nullptr;
   std::vector<Word> place;  // axis words but the depth

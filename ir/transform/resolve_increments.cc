@@ -35,7 +35,7 @@ struct HoleFlow {
     }
     for (const WordId id : module.blocks[block].words) {
       const Word& word = module.words[id];
-      if (word.op == WordOp::kCycle) state = IsHole(word.index) ? kHole : kNone;
+      if (word.op == WordOp::kCycle && word.extra == Id<void>::kNone) state = IsHole(word.index) ? kHole : kNone;
     }
   }
 };

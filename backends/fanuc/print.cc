@@ -134,6 +134,7 @@ void Printer::PrintAddress(const Word& word) {
       break;
     case WordOp::kStartAngle:
       letter = 'Q';
+      place = NumberPlace::kInteger;
       break;
     case WordOp::kSpeed:
       letter = 'S';

@@ -261,6 +261,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   ok = AbsoluteDimensions(module, machine, dimensions, sink, &carried, &kept) && ok;
   ReferencesToSteps(input, out);
   ok = ThreadLeads(input, out, sink) && ok;
+  ok = StartAngles(out, sink) && ok;
   ok = RoundFeeds(input, out, sink) && ok;  // while the blocks still say which of them are threads
   ok = NameTurningOffsets(input, out, sink) && ok;
   ok = MapWorkOffsets(input, out, sink) && ok;

@@ -1,11 +1,15 @@
 #include "backends/fanuc/thread_leads.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <map>
 #include <vector>
 
 #include "ir/analysis/forward_flow.h"
 #include "ir/block_words.h"
 #include "ir/builder.h"
+#include "ir/literal_value.h"
 #include "ir/make_word.h"
 
 namespace ncport::backends::fanuc {
@@ -192,7 +196,47 @@ bool Leads::Run() {
   return ok;
 }
 
+constexpr double kThousandths = 1000;  // of a degree in one
+
+/// A product with 0.001, which is how a source that counts in thousandths says degrees: what it counts. None: no such.
+ir::ExprId CountedValue(const Module& module, ir::ExprId id) {
+  const ir::Expr& expr = module.exprs[id];
+  if (expr.op != ir::ExprOp::kMultiply) return {};
+  const auto factor = ir::LiteralValue(module, ir::ExprId{expr.b});
+  return factor && *factor == 1 / kThousandths ? ir::ExprId{expr.a} : ir::ExprId{};
+}
+
 }  // namespace
+
+bool StartAngles(Translation& out, diag::Sink& sink) {
+  Module& module = out.module;
+  ir::ExprBuilder make(module);
+  bool ok = true;
+  for (const ProgramId program : module.programs.Ids()) {
+    for (const BlockId id : module.programs[program].blocks) {
+      for (const WordId word_id : module.blocks[id].words) {
+        Word word = module.words[word_id];
+        if (word.op != WordOp::kStartAngle) continue;
+        if (const auto degrees = ir::LiteralValue(module, word.value)) {
+          const double count = std::round(*degrees * kThousandths);
+          if (std::fabs(count - *degrees * kThousandths) > 1e-6) {
+            ok = false;
+            sink.Report(diag::Code::kWordTooCoarse, module.RangeOf(module.blocks[id], word),
+                        fmt::format("{:g}", *degrees), "3");
+            continue;
+          }
+          word.value = make.Literal(count, ir::Type::kInt);
+        } else if (const ir::ExprId counted = CountedValue(module, word.value); counted.Valid()) {
+          word.value = counted;
+        } else {
+          word.value = make.Binary(ir::ExprOp::kMultiply, word.value, make.Literal(kThousandths));
+        }
+        module.words[word_id] = word;
+      }
+    }
+  }
+  return ok;
+}
 
 bool ThreadLeads(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   return Leads(input, out.module, sink).Run();

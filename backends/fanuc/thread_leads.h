@@ -11,4 +11,8 @@ namespace ncport::backends::fanuc {
 /// one number on every way; else it is refused. Run after AbsoluteDimensions.
 bool ThreadLeads(const RaiseInput& input, Translation& out, diag::Sink& sink);
 
+/// Start angles, in degrees in the IR, become the counts of 0.001 degree without a point that Q takes (fanuc-8.1); one
+/// finer than that is refused.
+bool StartAngles(Translation& out, diag::Sink& sink);
+
 }  // namespace ncport::backends::fanuc

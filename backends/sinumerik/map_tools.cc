@@ -113,6 +113,11 @@ class Pass {
       return true;
     }
     selections_.Run();
+    if (input_.source_profile->IsLathe()) {
+      for (const BlockId id : module_.blocks.Ids()) {
+        if (selections_.Before(id) != nullptr) MapTurret(id);
+      }
+    }
     for (const ir::ProgramId program : module_.programs.Ids()) Map(program);
     return ok_ && rows_.Ok();
   }
@@ -222,7 +227,7 @@ class Pass {
       const State* before = selections_.Before(id);
       if (before == nullptr) continue;  // no run gets here
       if (input_.source_profile->IsLathe()) {
-        MapTurret(id);
+        OffsetOffInMachineMove(id, *before, editor);
       } else {
         MapBlock(program, id, *before, editor);
       }
@@ -354,6 +359,37 @@ class Pass {
       words.insert(words.begin(), {change, EdgeWord(*number == 0 ? 0 : target->edge)});
     }
     ir::SetWords(module_, module_.blocks[id], words);
+  }
+
+  /// On a lathe an offset has parts in X and Z: off for the whole block of SUPA (sinumerik-12, row 30).
+  void OffsetOffInMachineMove(BlockId id, const State& before, ProgramEditor& editor) {
+    Block block = module_.blocks[id];
+    const Word* machine = nullptr;
+    bool moves = false, selects = false;
+    for (const WordId word_id : block.words) {
+      const Word& word = module_.words[word_id];
+      if (word.op == WordOp::kMachineCoords) machine = &module_.words[word_id];
+      moves = moves || word.op == WordOp::kAxis;
+      selects = selects || word.op == WordOp::kTool || word.op == WordOp::kEdge;
+    }
+    if (machine == nullptr || !moves) return;
+    // The T word of the block itself is an edge by now.
+    if (selects) return Refuse(block, *machine, "a tool word beside a move in machine coordinates");
+    if (before.length == 0 || !rows_.Ok()) return;  // behind a finding no row is known
+    if (before.length == kOpen || before.length == kStale || before.tool == kOpen)
+      return Refuse(block, *machine, "machine coordinates with an offset that is not one on all ways here",
+                    "write the T word of the tool in front of it");
+    const TargetTool* target = rows_.Find(module_.RangeOf(block, *machine), before.tool, before.length, 0);
+    if (target == nullptr || target->edge == 0) return;
+    std::vector<Word> words;
+    for (const WordId word_id : block.words) words.push_back(module_.words[word_id]);
+    words.push_back(EdgeWord(0));
+    editor.SetWords(block, words);
+    module_.blocks[id].words = block.words;
+    Block again = editor.MakeBlock(id);
+    again.skip_level = block.skip_level;
+    editor.SetWords(again, {EdgeWord(target->edge)});
+    editor.InsertAfter(id, again);
   }
 
   const RaiseInput& input_;

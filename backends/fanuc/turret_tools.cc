@@ -86,6 +86,8 @@ bool MapTurretTools(const RaiseInput& input, Translation& out, diag::Sink& sink)
       const Word* tool = nullptr;
       const Word* edge = nullptr;
       bool change = false;
+      bool machine = false;  // moves in machine coordinates, which leave the offset out on both sides
+      bool moves = false;
       for (const WordId word_id : block.words) {
         const Word& word = module.words[word_id];
         if (word.op == WordOp::kTool) {
@@ -95,6 +97,8 @@ bool MapTurretTools(const RaiseInput& input, Translation& out, diag::Sink& sink)
         } else if (word.op == WordOp::kToolChange) {
           change = true;
         } else {
+          moves = moves || word.op == WordOp::kAxis;
+          machine = machine || word.op == WordOp::kMachineCoords;
           kept.push_back(word);
         }
       }
@@ -142,11 +146,11 @@ bool MapTurretTools(const RaiseInput& input, Translation& out, diag::Sink& sink)
       if (mapping == nullptr) {
         auto& finding = sink.Report(diag::Code::kUnmappedTool, range, use.source_words);
         const std::string quote = use.source_words.find('"') == std::string::npos ? "\"" : "'";
-        const bool off = lathe && !changes_by_m6 && edge != nullptr && use.source_edge == 0;
+        const bool no_offset = lathe && !changes_by_m6 && edge != nullptr && use.source_edge == 0;
         finding.help = fmt::format(
             "add to ncport.toml, with the words of your machine:  [tools]  {0}{1}{0} = \"{2}\"{3}", quote,
-            use.source_words, off ? fmt::format("T{:02}00", use.source_tool == 0 ? 1 : use.source_tool) : example,
-            off ? "  (the station of the tool, its offset off)" : "");
+            use.source_words, no_offset ? fmt::format("T{:02}00", use.source_tool == 0 ? 1 : use.source_tool) : example,
+            no_offset ? "  (the station of the tool, its offset off)" : "");
         ok = false;
         continue;
       }
@@ -183,6 +187,47 @@ bool MapTurretTools(const RaiseInput& input, Translation& out, diag::Sink& sink)
         out.tools.push_back(use);
       } else {
         known->offset_only = known->offset_only || keeps_tool;
+      }
+      // A T word alone moves the axes by the difference of the offsets (fanuc-8.4), with offset 0 by all of it, which
+      // in the cut is a move of its own.
+      const ir::Motion motion = flow.At(program, id).motion;
+      const bool off = keeps_tool && use.source_edge == 0 && flow.Reached(program, id);
+      if (off && motion != ir::Motion::kRapid && motion != ir::Motion::kUnknown) {
+        sink.Report(diag::Code::kNotExpressible, range, "an offset that ends while G0 is not in force",
+                    input.profile->name)
+            .help = "its T word moves the axes at once by all of the offset: write G0 in this block or before";
+        ok = false;
+        continue;
+      }
+      const bool rapid_before = flow.Before(program, id).motion == ir::Motion::kRapid;
+      if (off && (machine || (moves && !rapid_before))) {
+        Word text = TextWord(module, use.target_words, TextKind::kToolCall);
+        text.flags |= Word::kKeepsTool;
+        const auto alone = [&](const Word& word) {
+          Block made = editor.MakeBlock(id);
+          made.skip_level = block.skip_level;
+          editor.SetWords(made, {word});
+          return made;
+        };
+        // There T stands in no block with a move (mazak-lathe-4.4).
+        const bool apart = input.profile->IsMazakLathe();
+        if (!apart) kept.push_back(text);
+        Block made = block;
+        editor.SetWords(made, kept);
+        module.blocks[id].words = made.words;
+        if (apart && machine) {
+          editor.InsertAfter(id, alone(text));
+        } else if (apart) {
+          Block first = alone(ir::MakeWord(WordOp::kMotion, ir::Motion::kRapid));
+          first.number = block.number;
+          first.number_digits = block.number_digits;
+          first.label = block.label;
+          module.blocks[id].label = {};
+          module.blocks[id].number = Block::kNoNumber;
+          editor.InsertBefore(id, first);
+          editor.InsertBefore(id, alone(text));
+        }
+        continue;
       }
       // T stands alone in its block (mazak-lathe-4.4); what stood beside it follows.
       Word text = TextWord(module, use.target_words, TextKind::kToolCall);

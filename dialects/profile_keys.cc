@@ -229,7 +229,7 @@ constexpr KeyRow kRows[] = {
     {"fanuc.local-call", "M97 calls a block number of the same program", FlagKey{NCPORT_GET(fanuc.local_call)}},
     {"fanuc.do-numbers", "largest number behind DO", IntegerKey{NCPORT_GET(fanuc.do_numbers), 1, 127}},
     {"fanuc.digits", "most digits of a number in a word", IntegerKey{NCPORT_GET(fanuc.digits), 1, 15}},
-    {"fanuc.missing-functions", "functions of the macro language that the control lacks",
+    {"fanuc.missing-functions", "functions of the macro language, and G66, that the control lacks",
      TextsKey{NCPORT_GET(fanuc.missing_functions)}},
     {"fanuc.alarms", "values of #3000 for alarms that a translation makes", RangeKey{NCPORT_GET(fanuc.alarms), 4095}},
     {"fanuc.ix-offset", "word for the tool length of a multi-tasking machine in turning",

@@ -1,5 +1,7 @@
 #include "backends/fanuc/modal_calls.h"
 
+#include <algorithm>
+#include <string>
 #include <vector>
 
 #include "ir/make_word.h"
@@ -36,9 +38,30 @@ std::vector<bool> RunByModalCalls(const ir::Module& module, const ir::analysis::
   return run;
 }
 
+/// A control without G66 (fanuc-13): a modal call has no form there.
+bool RefuseModalCalls(const RaiseInput& input, const ir::Module& module, diag::Sink& sink) {
+  bool ok = true;
+  for (const ir::ProgramId program : module.programs.Ids()) {
+    for (const BlockId id : module.programs[program].blocks) {
+      const Block& block = module.blocks[id];
+      for (const WordId word_id : block.words) {
+        const Word& word = module.words[word_id];
+        if (word.op != WordOp::kModalCall || !word.Extra<ir::CallId>().Valid()) continue;
+        ok = false;
+        sink.Report(diag::Code::kNotExpressible, module.RangeOf(block, word), "a modal call (this control has no G66)",
+                    input.profile->name)
+            .help = "write the call in a block of its own behind each move";
+      }
+    }
+  }
+  return ok;
+}
+
 }  // namespace
 
 bool MapModalCalls(const RaiseInput& input, ir::Module& module, diag::Sink& sink) {
+  const std::vector<std::string> missing = input.profile->fanuc.missing_functions.Or({});
+  if (std::ranges::find(missing, "G66") != missing.end() && !RefuseModalCalls(input, module, sink)) return false;
   // The same stack on both sides: nothing differs.
   if (input.source_machine->modal_call_levels > 1) return true;
   const ir::analysis::FlowAnalyses analyses = input.Analyse(module);

@@ -81,6 +81,7 @@ class Mapper {
     bool change = false;
     bool moves_z = false;
     bool moves = false;
+    bool machine = false;                // moves in machine coordinates
     const Word* compensation = nullptr;  // left or right
   };
   [[nodiscard]] Words Look(const Block& block) const;
@@ -158,13 +159,16 @@ Mapper::Words Mapper::Look(const Block& block) const {
       case WordOp::kReference:
       case WordOp::kPole:
       case WordOp::kPresetPosition:
-      case WordOp::kMachineCoords:
         elsewhere = true;
+        break;
+      case WordOp::kMachineCoords:
+        elsewhere = words.machine = true;
         break;
       default:
         break;
     }
   }
+  words.machine = words.machine && words.moves;
   if (elsewhere) words.moves = words.moves_z = false;
   return words;
 }
@@ -266,6 +270,8 @@ void Mapper::Transfer(ProgramId, BlockId block, State& state) const {
   const Words words = Look(module_.blocks[block]);
   state = Select(words, state);
   if (words.moves_z) state.told = Selection::kYes;
+  // G53 cancels the compensation of the length (fanuc-8.1): the next Z names it again.
+  if (words.machine && state.tool > 0 && state.edge > 1) state.told = Selection::kNo;
 }
 
 Selection Mapper::Back(const ir::analysis::CallSite& site, const State& at, const State& exit) const {
@@ -361,6 +367,7 @@ void Mapper::Rewrite(ProgramId program) {
     // Only a change that the source's tool word makes by itself adds an M6.
     if (words.tool != nullptr && !words.change && HasChange(call)) out_.tool_change_added = true;
 
+    if (words.machine && now.edge != 1 && now.tool != Selection::kNone) TellKeptOffset(input_, out_);
     std::vector<Word> kept;
     for (const WordId word_id : block.words) {
       const Word word = module_.words[word_id];

@@ -81,4 +81,12 @@ bool HasChange(std::string_view call) {
   return call.find(" M6") != std::string_view::npos || call.find(" M06") != std::string_view::npos;
 }
 
+void TellKeptOffset(const RaiseInput& input, Translation& out) {
+  if (input.source_profile != nullptr && input.source_profile->language == input.profile->language) return;
+  constexpr std::string_view kText =
+      "G53 leaves the tool offset out, in the source it stays in machine coordinates unless D0 is in force: where one "
+      "is in force the place differs by it (sinumerik-12, row 30)";
+  if (std::ranges::find(out.assumptions, kText) == out.assumptions.end()) out.assumptions.emplace_back(kText);
+}
+
 }  // namespace ncport::backends::fanuc

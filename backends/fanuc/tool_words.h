@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "backends/fanuc/raise.h"
+
 namespace ncport::backends::fanuc {
 
 /// "M6" stands in "T1 M6 H1".
@@ -31,5 +33,9 @@ std::optional<MillToolWords> ParseMillTool(std::string_view words);
 
 /// The words of a tool call bring the tool in.
 bool HasChange(std::string_view call);
+
+/// Says once that a move in machine coordinates of the source keeps the tool offset, and that of the target does not;
+/// not between languages that are one.
+void TellKeptOffset(const RaiseInput& input, Translation& out);
 
 }  // namespace ncport::backends::fanuc

@@ -76,7 +76,11 @@ bool MapTurretTools(const RaiseInput& input, Translation& out, diag::Sink& sink)
   const ir::analysis::ModalFlow& flow = analyses.Modal();
   const ToolFlow tools(analyses.Sources());
   bool selects = false;  // some program selects a work offset
-  for (const Word& word : module.words.All()) selects = selects || word.op == WordOp::kWorkOffset;
+  bool tools_in = false;
+  for (const Word& word : module.words.All()) {
+    selects = selects || word.op == WordOp::kWorkOffset;
+    tools_in = tools_in || word.op == WordOp::kTool;
+  }
   for (const ir::ProgramId program : module.programs.Ids()) {
     ProgramEditor editor(module, program, "map_tools");
     for (const BlockId id : module.programs[program].blocks) {
@@ -102,6 +106,7 @@ bool MapTurretTools(const RaiseInput& input, Translation& out, diag::Sink& sink)
           kept.push_back(word);
         }
       }
+      if (machine && moves && tools_in && edge == nullptr) TellKeptOffset(input, out);
       if (tool == nullptr && edge == nullptr && !change) continue;
       const ir::WorkOffset work_offset = flow.At(program, id).work_offset;
       ToolUse use;

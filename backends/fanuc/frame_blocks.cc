@@ -130,6 +130,40 @@ std::vector<std::string> SafetyLines(const RaiseInput& input, bool calls_tools) 
   return lines;
 }
 
+/// What switches off the frames that the programs use, and that M30 may have left on (fanuc-8.4, 8.5). The others need
+/// options that this machine may not have.
+std::vector<std::string> FramesOff(const dialects::Profile& profile, const Module& module,
+                                   const std::vector<std::string>& head) {
+  using dialects::fanuc::Special;
+  const auto system = *dialects::fanuc::SystemOf(profile);
+  bool shift = false, rotation = false;
+  std::string axes = profile.IsLathe() ? "XZ" : "XYZ";  // a lathe need not have the Y of its profile
+  for (const ir::ProgramId program : module.programs.Ids()) {
+    for (const BlockId id : module.programs[program].blocks) {
+      const bool frame = ir::HasWord(module, module.blocks[id], WordOp::kFrame);
+      for (const ir::WordId word : module.blocks[id].words) {
+        if (frame && module.words[word].op == WordOp::kAxis && module.words[word].index == 1 && axes == "XZ")
+          axes = "XYZ";
+        if (module.words[word].op != WordOp::kFrame) continue;
+        const auto op = static_cast<ir::FrameOp>(module.words[word].index);
+        const bool turns = op == ir::FrameOp::kRotateAbout || op == ir::FrameOp::kRotateEnd;
+        rotation = rotation || turns;
+        shift = shift || !turns;
+      }
+    }
+  }
+  std::vector<std::string> lines;
+  const std::string end(dialects::fanuc::TextOf(system, Special::kRotationOff));
+  const bool written = std::ranges::any_of(head, [&](const std::string& line) { return HoldsWord(line, end); });
+  if (rotation && !written) lines.push_back(end);
+  if (shift) {
+    std::string line(dialects::fanuc::TextOf(system, Special::kLocalShift));
+    for (const char axis : axes) line += fmt::format(" {}0.", axis);
+    lines.push_back(line);
+  }
+  return lines;
+}
+
 /// The plane that the programs take over from the start of the source: one that is in force at a motion without a word
 /// of theirs. A word of the header that says otherwise becomes that one.
 void PlaneOfSource(const RaiseInput& input, const Module& module, std::vector<std::string>& head) {
@@ -211,6 +245,8 @@ void FrameMainPrograms(const RaiseInput& input, Translation& out) {
         std::any_of(head.begin(), head.end(), [&](const std::string& line) { return HoldsWord(line, other); });
     if (differs) feed_word = by_minute ? minute : revolution;
   }
+  const std::vector<std::string> off = FramesOff(profile, module, head);
+  head.insert(head.end(), off.begin(), off.end());
   if (profile.IsMazakLathe()) {
     if (*profile.fanuc.c_axis) head.emplace_back("M202");
     const std::string leave = profile.fanuc.leave_mazatrol.Or("");

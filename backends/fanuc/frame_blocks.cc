@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "backends/fanuc/change_states.h"
 #include "backends/fanuc/text_word.h"
 #include "backends/fanuc/tool_words.h"
 #include "dialects/fanuc/words.h"
@@ -350,6 +351,37 @@ std::set<BlockId> AwayFromHome(const Module& module, const ir::analysis::Cfg& gr
   return away;
 }
 
+/// Coolant off, alone in its block, and the speed fixed before the way home, where constant surface speed would race
+/// the spindle (mazak-lathe-4.4, 5.2); the coolant again behind the change. What goes in front of the way
+/// home comes into `front`.
+bool StopForChange(const ChangeStates& states, ir::ProgramId program, BlockId id, ProgramEditor& editor,
+                   const dialects::Profile& profile, Translation& out, diag::Sink& sink,
+                   std::vector<std::string>& front) {
+  Module& module = out.module;
+  using Coolant = ChangeStates::Coolant;
+  const ChangeStates::State state = states.Before(id);
+  const auto refuse = [&](std::string_view what, std::string_view help) {
+    sink.Report(diag::Code::kNotExpressible, module.RangeOf(module.blocks[id]), what, profile.name).help = help;
+    return false;
+  };
+  if (state.coolant == Coolant::kMaybe)
+    return refuse("a tool change with coolant that is on only on some ways to it", "write M8 or M9 before the tool");
+  static constexpr std::string_view kAdded =
+      "tool change: coolant and constant surface speed off before the way home, coolant on again behind it";
+  const bool any = state.coolant != Coolant::kOff || state.speed != ChangeStates::SurfaceSpeed::kOff;
+  if (any && std::ranges::find(out.added, kAdded) == out.added.end()) out.added.emplace_back(kAdded);
+  if (state.coolant != Coolant::kOff) {
+    front.emplace_back("M9");
+    editor.InsertAfter(id, AddedBlock(module, editor, id, state.coolant == Coolant::kM7 ? "M7" : "M8"));
+  }
+  if (state.speed == ChangeStates::SurfaceSpeed::kOff) return true;
+  if (!states.SpeedFollows(program, id))
+    return refuse("a tool change under constant surface speed that goes on in it",
+                  "the way home needs G97: write G96 S or G97 S again behind the tool, before it cuts");
+  front.emplace_back("G97");
+  return true;
+}
+
 }  // namespace
 
 bool FrameToolChanges(const RaiseInput& input, Translation& out, diag::Sink& sink) {
@@ -370,6 +402,7 @@ bool FrameToolChanges(const RaiseInput& input, Translation& out, diag::Sink& sin
   bool any = false;
   bool ok = true;
   const ir::analysis::FlowGraphs graphs(module);
+  const ChangeStates states(input, module);
   for (const ir::ProgramId program : module.programs.Ids()) {
     ProgramEditor editor(module, program, "frame");
     const bool main = module.programs[program].kind == ir::ProgramKind::kMain;
@@ -377,7 +410,10 @@ bool FrameToolChanges(const RaiseInput& input, Translation& out, diag::Sink& sin
     for (const BlockId id : module.programs[program].blocks) {
       if (!IsToolChange(module, id)) continue;
       if (!main || away.contains(id)) {
-        PutLinesInFront(module, editor, id, home);
+        std::vector<std::string> front;
+        if (profile.IsMazakLathe()) ok = StopForChange(states, program, id, editor, profile, out, sink, front) && ok;
+        front.insert(front.end(), home.begin(), home.end());
+        PutLinesInFront(module, editor, id, front);
         any = true;
         const BlockId cut = home.empty() ? BlockId{} : CutFromHome(module, graphs.Of(program), id);
         if (cut.Valid()) {

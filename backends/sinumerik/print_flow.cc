@@ -1,4 +1,6 @@
 // Jumps, structure marks, calls, returns.
+#include <cmath>
+
 #include "backends/sinumerik/printer.h"
 #include "base/number_text.h"
 #include "base/result.h"
@@ -194,6 +196,11 @@ void Printer::Passes(ir::ExprId passes) {
   if (!passes.Valid()) return;
   const ir::Expr* value = &module_.exprs[passes];
   while (value->op == ir::ExprOp::kConvert) value = &module_.exprs[ir::ExprId{value->a}];
+  // P is INT: a literal stands without a point (sinumerik-7.1).
+  if (value->op == ir::ExprOp::kLiteral && value->number == std::floor(value->number)) {
+    out_.Append(" P");
+    return AppendInteger(out_, static_cast<std::int64_t>(value->number));
+  }
   out_.Append(value->op == ir::ExprOp::kLiteral ? " P" : " P=");
   Expr(passes);
 }

@@ -240,6 +240,7 @@ Status FlatWriter::Finish() {
   if (early_edge_) RefuseEarlyEdge();
   CloseOpenLine();
   WriteLeftoverComments();
+  RefuseWhatRan();
   origin_ = {};
   if (target_.words.footer.Known()) {
     for (const std::string& line : *target_.words.footer) {

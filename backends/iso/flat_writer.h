@@ -87,6 +87,8 @@ class FlatWriter final : public exec::EventSink {
   void WriteLostWordsOf(ir::BlockId id);
   void WriteLeftoverComments();
   [[nodiscard]] bool Executed(ir::BlockId block) const;
+  /// Blocks that ran and whose text says more than the events of one run.
+  void RefuseWhatRan();
   diag::Diagnostic* Refuse(diag::Code code, std::string_view what, std::string_view more = {});
   [[nodiscard]] SourceRange Place() const;
   void NoteCalls(diag::Diagnostic& diagnostic) const;

@@ -26,10 +26,10 @@ void HoleMoves::Rapid(const Hole& hole, ExprId target, const Put& put) {
   put({MakeWord(WordOp::kMotion, Motion::kRapid), axis});
 }
 
-void HoleMoves::Feed(const Hole& hole, ExprId target, const Put& put) {
+void HoleMoves::Feed(const Hole& hole, ExprId target, const Put& put, Motion motion) {
   Word axis = MakeWord(WordOp::kAxis, hole.normal, target);
   axis.mode = hole.incremental ? ValueMode::kAbsolute : ValueMode::kModal;
-  put({MakeWord(WordOp::kMotion, Motion::kLinear), axis});
+  put({MakeWord(WordOp::kMotion, motion), axis});
 }
 
 ExprId HoleMoves::Compare(ExprOp op, ExprId left, ExprId right) {
@@ -73,11 +73,14 @@ std::string_view HoleMoves::Make(ProgramId program, const Hole& hole, const Put&
     case Cycle::kTapLeft: {
       const auto step = LiteralOf(module_, hole.step);
       if (hole.step.Valid() && (!step || *step != 0)) return "tapping with pecks";
+      if (hole.spindle == SpindleState::kStop || hole.spindle == SpindleState::kPositioned)
+        return "tapping with a spindle that stands still";
       const bool left = hole.cycle == Cycle::kTapLeft;
-      feed(hole.depth);
+      // No plain feed move: the override of the feed, or a stop, would break the tap in the hole.
+      Feed(hole, hole.depth, put, Motion::kTapFloating);
       wrong = Pause(hole, put);
       spindle(left ? SpindleState::kCw : SpindleState::kCcw);
-      feed(hole.level);
+      Feed(hole, hole.level, put, Motion::kTapFloating);
       spindle(left ? SpindleState::kCcw : SpindleState::kCw);
       break;
     }

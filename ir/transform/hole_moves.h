@@ -42,7 +42,7 @@ class HoleMoves {
   };
 
   void Rapid(const Hole& hole, ExprId target, const Put& put);
-  void Feed(const Hole& hole, ExprId target, const Put& put);
+  void Feed(const Hole& hole, ExprId target, const Put& put, Motion motion = Motion::kLinear);
   std::string_view Pause(const Hole& hole, const Put& put);
   std::string_view Pecks(ProgramId program, const Hole& hole, const Put& put);
   void WrittenPecks(const Hole& hole, double level, double depth, double step, const Put& put);

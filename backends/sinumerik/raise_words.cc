@@ -111,10 +111,19 @@ bool ArrangeTexts(const RaiseInput& input, Translation& out, diag::Sink& sink) {
         switch (word.op) {
           case WordOp::kFileMark:
           case WordOp::kHeader:
-          case WordOp::kInert:  // a word of the source without effect
             continue;
+          case WordOp::kInert: {  // a word of the source without effect on the path: a mode of its control
+            if (word.phase == ir::Phase::kMotion) continue;  // the code of a dwell, which has a word of its own
+            const std::string_view code =
+                word.spelling == 0 ? std::string_view() : module.View(module.spellings[word.spelling].text);
+            if (!code.starts_with('G') && !code.starts_with('M')) continue;  // data of one
+            text += (text.empty() ? "" : " ") + std::string(code);
+            sink.Report(diag::Code::kListedLoss, module.RangeOf(block, word), code, input.profile->name);
+            out.losses.push_back({module.RangeOf(block, word), std::string(code)});
+            continue;
+          }
           case WordOp::kPrint: {
-            text = "DPRNT ";
+            text += text.empty() ? "DPRNT " : " DPRNT ";
             AppendText(module, word.value, text);
             out.messages_lost = true;
             sink.Report(diag::Code::kListedLoss, module.RangeOf(block, word), text, input.profile->name);

@@ -1,207 +1,105 @@
-#include <vector>
+// Moves that need a feed where none is in force: on every way, or on some.
+#include <fmt/format.h>
 
-#include "check/expressions.h"
-#include "check/motion_words.h"
-#include "check/rules.h"
-#include "dialects/finding_alarms.h"
+#include <set>
+#include <string>
+#include <utility>
+
+#include "check/feed_flow.h"
+#include "check/value_rules.h"
 
 namespace ncport::check {
 namespace {
 
 using ir::BlockId;
 using ir::ProgramId;
-using ir::WordOp;
-using ir::analysis::EdgeKind;
 
-/// `F0`: a feed of nothing is none (sinumerik-10#49, fanuc-11#8).
-bool IsZero(const ir::Module& module, const ir::Word& feed) { return LiteralValue(module, feed.value) == 0.0; }
-
-/// Where a feed may have been set on some way through programs and calls. What is not known counts as set, so that a
-/// finding holds on every way.
-class FeedFlow {
+class Feed final : public ValueRule {
  public:
-  explicit FeedFlow(const Subject& subject)
-      : subject_(subject),
-        module_(subject.module),
-        may_have_(module_.blocks.Size(), 0),
-        entered_(module_.programs.Size(), 0),
-        leaves_(module_.programs.Size(), 0) {
-    FindSetters();
-    FindEntries();
+  Feed(const ValueRuleInput& input, ValueFindings& findings, const ir::analysis::FlowSources& sources)
+      : ValueRule(input, findings), sources_(sources), ways_(input.module) {}
+
+  void Condition(const Site& site, ir::ExprId condition, const Interval& truth) override {
+    ways_.Condition(site.block, condition, truth);
+  }
+  void CountedLoop(const Site& site, const Interval& start, const Interval& end, const Interval& step) override {
+    ways_.CountedLoop(site.block, start, end, step);
   }
 
-  /// False if no way to the block sets a feed.
-  [[nodiscard]] bool MayHave(BlockId block) const { return may_have_[block.value] != 0; }
+  void Finish(diag::Sink& sink) override {
+    if (!input_.machine.feed_needed) return;
+    FeedFlow client(sources_, ways_);
+    ir::analysis::ForwardFlow<FeedFlow> flow(sources_, client);
+    flow.Run();
+    for (const ProgramId program : input_.module.programs.Ids()) {
+      if (input_.module.programs[program].library) continue;
+      for (const BlockId id : input_.module.programs[program].blocks) {
+        const FeedState* before = flow.Before(id);
+        if (before == nullptr) continue;
+        FeedState state = *before;
+        client.Set(program, id, state);
+        const NeededFeed needed = client.NeedOf(program, id, state);
+        if (needed.need != FeedNeed::kNothing) Judge(program, id, state, needed, sink);
+      }
+    }
+  }
 
  private:
-  // Programs that set a feed themselves or call one that does, or something that is not known.
-  void FindSetters() {
-    for (const ProgramId program : subject_.calls.BottomUp()) leaves_[program.value] = Sets(program) ? 1 : 0;
-    // Circles of calls: once more is enough, since one setter makes all of its circle setters.
-    for (const ProgramId program : subject_.calls.BottomUp()) leaves_[program.value] = Sets(program) ? 1 : 0;
+  void Judge(ProgramId program, BlockId id, const FeedState& state, const NeededFeed& needed, diag::Sink& sink) const {
+    const bool lacks = (state.ways & FeedState::kLacks) != 0;
+    const bool idle = (state.ways & FeedState::kIdle) != 0;
+    if (!lacks && !(idle && input_.options.all)) return;
+    const bool certain = (state.ways & ~FeedState::kLacks) == 0 && needed.certain;
+    diag::Diagnostic& finding =
+        sink.ReportAs(certain ? diag::Severity::kError : diag::Severity::kWarning, diag::Code::kMissingFeed,
+                      input_.module.RangeOf(input_.module.blocks[id], *needed.word));
+    if (std::string note = NoteOf(needed); !note.empty()) finding.notes.push_back({{}, std::move(note)});
+    if ((state.ways & ~FeedState::kZero) == 0) {
+      finding.help = "F0 is no feed";
+    } else if ((state.ways & ~FeedState::kChanged) == 0) {
+      const bool minutes = sources_.modal->At(program, id).feed_mode == ir::FeedMode::kPerMinute;
+      finding.notes.push_back({{},
+                               minutes ? "the last F was a feed per revolution, now feeds are per minute"
+                                       : "the last F was a feed per minute, now feeds are per revolution"});
+      finding.help = "a change of the kind of feed needs a new F";
+    } else if (certain) {
+      finding.help = "no block on the way here sets a feed: write F in this block";
+    } else {
+      finding.help = "on a way here no feed is set: write F in this block, or where every way comes by";
+    }
+    const bool lead = needed.need == FeedNeed::kLead || needed.need == FeedNeed::kCycleLead;
+    finding.control = ControlAlarm(lead ? ir::AlarmClass::kGeometry : ir::AlarmClass::kMissingFeed);
   }
 
-  [[nodiscard]] bool Sets(ProgramId program) const {
-    if (leaves_[program.value] != 0) return true;
-    if (subject_.graphs.Of(program).Opaque()) return true;
-    for (const BlockId id : module_.programs[program].blocks) {
-      if (SetsItself(module_.blocks[id])) return true;
-    }
-    for (const ir::analysis::CallSite& site : subject_.calls.SitesOf(program)) {
-      if (!site.callee.Valid() || leaves_[site.callee.value] != 0) return true;
-    }
-    return false;
-  }
-
-  [[nodiscard]] bool SetsItself(const ir::Block& block) const {
-    if ((block.flags & ir::Block::kRefused) != 0) return true;
-    for (const ir::WordId id : block.words) {
-      switch (module_.words[id].op) {
-        case WordOp::kFeed:
-          if (!IsZero(module_, module_.words[id])) return true;
-          break;
-        case WordOp::kComputedG:
-        case WordOp::kDataSetting:
-        case WordOp::kVerbatim:
-          return true;
-        case WordOp::kCall:
-          if (!Callee(module_.words[id]).Valid()) return true;
-          break;
-        default:
-          break;
-      }
-    }
-    return false;
-  }
-
-  [[nodiscard]] bool TakesAway(const ir::Block& block) const {
-    bool takes = false;
-    for (const ir::WordId id : block.words) {
-      const ir::Word& word = module_.words[id];
-      takes = takes || (word.op == WordOp::kFeed && IsZero(module_, word));
-    }
-    return takes && block.skip_level == ir::Block::kNoSkip;
-  }
-
-  [[nodiscard]] ProgramId Callee(const ir::Word& word) const {
-    const auto call = word.Extra<ir::CallId>();
-    return module_.calls.Contains(call) ? module_.calls[call].program : ProgramId{};
-  }
-
-  /// A feed may be in force behind the block.
-  [[nodiscard]] bool Behind(const ir::Block& block, bool before) const {
-    if (SetsItself(block)) return true;
-    if (before && !TakesAway(block)) return true;
-    for (const ir::WordId id : block.words) {
-      const ir::Word& word = module_.words[id];
-      if (word.op != WordOp::kCall && word.op != WordOp::kModalCall) continue;
-      const ProgramId callee = Callee(word);
-      // A modal call runs behind later blocks.
-      if (callee.Valid() && leaves_[callee.value] != 0) return true;
-    }
-    return false;
-  }
-
-  void FindEntries() {
-    std::vector<std::uint8_t> called(module_.programs.Size(), 0);
-    for (const ir::analysis::CallSite& site : subject_.calls.AllSites()) {
-      if (site.callee.Valid()) called[site.callee.value] = 1;
-    }
-    std::vector<ProgramId> open;
-    for (const ProgramId program : module_.programs.Ids()) {
-      const bool main = subject_.IsMain(program);
-      // What nothing here calls may be called with any state.
-      if (!main && called[program.value] == 0) entered_[program.value] = 1;
-      open.push_back(program);
-    }
-    while (!open.empty()) {
-      const ProgramId program = open.back();
-      open.pop_back();
-      Flow(program);
-      for (const ir::analysis::CallSite& site : subject_.calls.SitesOf(program)) {
-        if (!site.callee.Valid() || entered_[site.callee.value] != 0) continue;
-        if (!Behind(module_.blocks[site.block], MayHave(site.block)) && !site.modal) continue;
-        entered_[site.callee.value] = 1;
-        open.push_back(site.callee);
-      }
+  [[nodiscard]] std::string NoteOf(const NeededFeed& needed) const {
+    switch (needed.need) {
+      case FeedNeed::kLead:
+      case FeedNeed::kCycleLead:
+        return "F is the lead of the thread";
+      case FeedNeed::kCycle:
+        return "the cycle in force here moves by feed";
+      case FeedNeed::kCall:
+        return fmt::format("{} moves by feed", NameOf(needed.program));
+      case FeedNeed::kModalCall:
+        return fmt::format("{} runs behind this block, and moves by feed", NameOf(needed.program));
+      default:
+        return {};
     }
   }
 
-  void Flow(ProgramId program) {
-    const ir::analysis::Cfg& graph = subject_.graphs.Of(program);
-    const auto blocks = graph.Blocks();
-    if (blocks.Empty()) return;
-    std::vector<BlockId> open;
-    const auto set = [&](BlockId block) {
-      if (may_have_[block.value] != 0) return;
-      may_have_[block.value] = 1;
-      open.push_back(block);
-    };
-    if (graph.Opaque()) {
-      for (const BlockId block : blocks) set(block);
-    }
-    if (entered_[program.value] != 0) set(blocks[0]);
-    for (const BlockId block : blocks) {
-      if (!graph.Reachable(block) || !Behind(module_.blocks[block], false)) continue;
-      Follow(graph, block, set);
-    }
-    while (!open.empty()) {
-      const BlockId block = open.back();
-      open.pop_back();
-      if (Behind(module_.blocks[block], true)) Follow(graph, block, set);
-    }
+  [[nodiscard]] std::string_view NameOf(ProgramId program) const {
+    return input_.module.View(input_.module.programs[program].name);
   }
 
-  template <class Set>
-  static void Follow(const ir::analysis::Cfg& graph, BlockId block, Set set) {
-    for (const ir::analysis::Edge& edge : graph.Successors(block)) {
-      if (edge.to.Valid()) set(edge.to);
-      if (edge.kind != EdgeKind::kComputed) continue;
-      for (const BlockId target : graph.ComputedTargets()) set(target);
-    }
-  }
-
-  const Subject& subject_;
-  const ir::Module& module_;
-  std::vector<std::uint8_t> may_have_;  // per block, on arrival
-  std::vector<std::uint8_t> entered_;   // per program: a caller may have set a feed
-  std::vector<std::uint8_t> leaves_;    // per program: a feed may be set when it returns
+  ir::analysis::FlowSources sources_;
+  KnownWays ways_;
 };
-
-/// The feed of the block, or null.
-const ir::Word* FeedOf(const ir::Module& module, const ir::Block& block) {
-  const ir::Word* feed = nullptr;
-  for (const ir::WordId id : block.words) {
-    const ir::Word& word = module.words[id];
-    if (word.op == WordOp::kFeed || word.op == WordOp::kFeedOnce) feed = &word;
-  }
-  return feed;
-}
 
 }  // namespace
 
-void CheckFeed(const Subject& subject, diag::Sink& sink) {
-  if (!subject.machine.feed_needed) return;
-  const ir::Module& module = subject.module;
-  const FeedFlow flow(subject);
-  for (const ProgramId program : module.programs.Ids()) {
-    if (module.programs[program].library) continue;
-    const ir::analysis::Cfg& graph = subject.graphs.Of(program);
-    for (const BlockId id : module.programs[program].blocks) {
-      const ir::Block& block = module.blocks[id];
-      const ir::Word* feed = FeedOf(module, block);
-      const bool zero = feed != nullptr && feed->op == WordOp::kFeed && IsZero(module, *feed);
-      if (!graph.Reachable(id) || (flow.MayHave(id) && !zero) || (block.flags & ir::Block::kRefused) != 0) continue;
-      const ir::Word* moving = MovingWord(module, block);
-      if (moving == nullptr || (feed != nullptr && !zero)) continue;
-      const ir::ModalState modes = subject.modal.At(program, id);
-      if (!IsFeedMotion(modes.motion) || modes.feed_mode == ir::FeedMode::kInverseTime) continue;
-      diag::Diagnostic& finding = sink.Report(diag::Code::kMissingFeed, subject.PlaceOf(id, *moving));
-      finding.help = zero ? "F0 is no feed" : "no block on the way here sets a feed: write F in this block";
-      finding.control = dialects::AlarmFor(subject.profile, finding.code);
-      break;  // once a program: the next moves lack the same word
-    }
-  }
+std::unique_ptr<ValueRule> MakeFeed(const ValueRuleInput& input, ValueFindings& findings,
+                                    const ir::analysis::FlowSources& sources) {
+  return std::make_unique<Feed>(input, findings, sources);
 }
 
 }  // namespace ncport::check

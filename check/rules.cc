@@ -24,11 +24,9 @@ void CheckPrograms(const Subject& subject, diag::Sink& sink) {
   CheckSharedNames(subject, sink);
   CheckExterns(subject, sink);
   CheckRecursion(subject, sink);
-  CheckFeed(subject, sink);
   CheckEmptyValues(subject, sink);
   CheckSpindle(subject, sink);
   CheckCallDepth(subject, sink);
-  CheckFeedKind(subject, sink);
   CheckSpindleSpeed(subject, sink);
   CheckCompensation(subject, sink);
   CheckFrameArcs(subject, sink);

@@ -60,8 +60,6 @@ void CheckSharedNames(const Subject& subject, diag::Sink& sink);
 void CheckExterns(const Subject& subject, diag::Sink& sink);
 /// NC4006: every way through a program calls it again.
 void CheckRecursion(const Subject& subject, diag::Sink& sink);
-/// NC5002: a feed move on no way to which a feed was set, or with a feed of 0.
-void CheckFeed(const Subject& subject, diag::Sink& sink);
 /// NC3004: a numbered variable that is empty on every way here, in arithmetic, a comparison or a word (fanuc-11#45).
 void CheckEmptyValues(const Subject& subject, diag::Sink& sink);
 /// NC9003: calls from a main program that are nested deeper than the control takes (profile: nesting.call).
@@ -69,8 +67,6 @@ void CheckCallDepth(const Subject& subject, diag::Sink& sink);
 /// NC5003: a feed move on no way to which a spindle was started or got a speed, in a set that starts one; also with a
 /// new tool behind a stop.
 void CheckSpindle(const Subject& subject, diag::Sink& sink);
-/// NC5002: a feed move whose last feed, on every way, is of the other kind, where a change of the kind drops the feed.
-void CheckFeedKind(const Subject& subject, diag::Sink& sink);
 /// NC5003: a feed move behind a new speed with which nothing starts the spindle, or behind a start for which no way
 /// sets a speed; the latter stands at the start.
 void CheckSpindleSpeed(const Subject& subject, diag::Sink& sink);

@@ -125,19 +125,6 @@ TEST_CASE("programs that call themselves for ever") {
   CHECK(Sub("PROC SUB1\nSUB2\nM17\n%_N_SUB2_SPF\nG0 X1\nM17\n").empty());
 }
 
-TEST_CASE("feed moves without a feed") {
-  CHECK(Mill("G0 X1\nG1 X2\nG1 X3\nM30\n") == "NC5002 2");
-  CHECK(Mill("X1\nM30\n") == "NC5002 1");
-  CHECK(Mill("G17 G90\nG0 X0 Y0\nIF R1>1 GOTOF AB\nG1 X1 F100\nM30\nAB: G3 X5 Y0 CR=3\nM30\n") == "NC5002 6");
-  CHECK(Macro("O1\nG0 X1.\nG1 X2.\nM30\n") == "NC5002 3");
-  CHECK(Mill("G0 X1 F100\nG1 X2\nM30\n").empty());
-  CHECK(Mill("G0 X1\nIF R1>1\nF100\nENDIF\nG1 X2\nM30\n").empty());
-  CHECK(Macro("O1\nG90 G1\nG53 Z0.\nG91 G28 Z0.\nM30\n").empty());
-  // Callers may have set it.
-  CHECK(Sub("PROC SUB1\nG1 X2\nM17\n").empty());
-  CHECK(Mill("G93\nG1 X1 F1\nTRANS X5\nG4 F2\nM30\n").empty());
-}
-
 TEST_CASE("cycles that go from hole to hole without a modal call") {
   const std::string holes = "HOLES2(0,0,20,0,60,6)\n";
   CHECK(Mill("G0 X0 Y0 Z5\nCYCLE81(10,0,2,-5)\n" + holes + "M30\n").find("NC4013 3") != std::string::npos);
@@ -146,15 +133,6 @@ TEST_CASE("cycles that go from hole to hole without a modal call") {
   CHECK(Mill("G0 X0 Y0 Z5\nMCALL CYCLE81(10,0,2,-5)\n" + holes + "MCALL\nM30\n").empty());
   CHECK(Mill("G0 X0 Y0 Z5\nIF R1>0\nMCALL CYCLE81(10,0,2,-5)\nENDIF\n" + holes + "MCALL\nM30\n").empty());
   CHECK(Sub("PROC SUB\n" + holes + "M17\n").empty());
-}
-
-TEST_CASE("a feed of 0 is none") {
-  CHECK(Mill("G1 X1 F0\nM30\n") == "NC5002 1");
-  CHECK(Mill("F100\nG1 X1\nF0\nG1 X2\nM30\n") == "NC5002 4");
-  CHECK(Macro("O1\nF0\nG1 X2.\nM30\n") == "NC5002 3");
-  CHECK(Mill("F0\nG0 X1\nG1 X2 F100\nM30\n").empty());
-  CHECK(Mill("G1 X1 F100\nIF R1>1\nF0\nENDIF\nG1 X2\nM30\n").empty());
-  CHECK(Mill("G1 X1 F=R1\nG4 F0\nX2\nM30\n").empty());
 }
 
 TEST_CASE("words that do not describe an arc") {
@@ -228,22 +206,6 @@ TEST_CASE("calls with arguments of programs that only EXTERN makes known") {
   CHECK(Mill("EXTERN SUB1(REAL)\nSUB1(1)\n" + plain).empty());
   CHECK(Mill("SUB1\n" + plain).empty());
   CHECK(Mill("SUB1(1)\n" + cycle).empty());
-}
-
-TEST_CASE("a change of the kind of feed needs a new feed") {
-  CHECK(Mill("G94 G0 X0\nG1 X5 F100\nG95\nG1 X9\nM30\n") == "NC5002 4");
-  CHECK(Lathe("G95 G0 X0\nG1 X5 F0.2\nG94\nG0 X9\nG1 X2\nX3\nM30\n") == "NC5002 5");
-  CHECK(Lathe("G94 G0 X0 S500 M4\nG1 X5 F200\nG96 S100 M4\nG1 X2\nM30\n") == "NC5002 4");
-  CHECK(Mill("G94 G0 X0\nG1 X5 F100\nIF R1>0\nG95\nELSE\nG95\nENDIF\nG1 X9\nM30\n") == "NC5002 8");
-  CHECK(Mill("G94 G0 X0\nG1 X5 F100\nG95 F0.1\nG1 X9\nM30\n").empty());
-  CHECK(Mill("G94 G0 X0\nG1 X5 F100\nG95\nG1 X9 F0.1\nM30\n").empty());
-  CHECK(Mill("G94 G0 X0\nG1 X5 F100\nG95\nG0 X9\nM30\n").empty());
-  CHECK(Mill("G94 G0 X0\nG1 X5 F100\nG95\nG94\nG1 X9\nM30\n").empty());
-  // Some way sets it, or may.
-  CHECK(Mill("G94 G0 X0\nG1 X5 F100\nG95\nIF R1>0\nF0.1\nENDIF\nG1 X9\nM30\n").empty());
-  CHECK(Sub("G95\nG1 X9\nM17\n").empty());
-  // There the number goes over.
-  CHECK(Findings("fanuc-lathe-a", "o1.nc", "O1\nG98 G1 X5. F100.\nG99\nG1 X9.\nM30\n").empty());
 }
 
 TEST_CASE("feed moves of a spindle that was not started, or has no speed") {

@@ -364,4 +364,64 @@ TEST_CASE("value rules: values that words cannot take") {
   CHECK(Macro("O1\n#1=#0\nH#1\nM30\n").empty());
 }
 
+TEST_CASE("value rules: feed moves without a feed") {
+  CHECK(Mill("G0 X1\nG1 X2\nG1 X3\nM30\n") == "NC5002 2 error");
+  CHECK(Mill("X1\nM30\n") == "NC5002 1 error");
+  CHECK(Mill("G17 G90\nG0 X0 Y0\nIF R1>1 GOTOF AB\nG1 X1 F100\nM30\nAB: G3 X5 Y0 CR=3\nM30\n") == "NC5002 6 error");
+  CHECK(Macro("O1\nG0 X1.\nG1 X2.\nM30\n") == "NC5002 3 error");
+  CHECK(Mill("G0 X1 F100\nG1 X2\nM30\n").empty());
+  CHECK(Mill("G0 X1\nIF R1>1\nF100\nENDIF\nG1 X2\nM30\n") == "NC5002 5");
+  CHECK(Macro("O1\nG90 G1\nG53 Z0.\nG91 G28 Z0.\nM30\n").empty());
+  // Callers may have set it.
+  CHECK(Sub("PROC SUB1\nG1 X2\nM17\n").empty());
+  CHECK(Mill("G93\nG1 X1 F1\nTRANS X5\nG4 F2\nM30\n").empty());
+}
+
+TEST_CASE("value rules: a feed of 0 is none") {
+  CHECK(Mill("G1 X1 F0\nM30\n") == "NC5002 1 error");
+  CHECK(Mill("F100\nG1 X1\nF0\nG1 X2\nM30\n") == "NC5002 4 error");
+  CHECK(Macro("O1\nF0\nG1 X2.\nM30\n") == "NC5002 3 error");
+  CHECK(Mill("F0\nG0 X1\nG1 X2 F100\nM30\n").empty());
+  CHECK(Mill("G1 X1 F100\nIF R1>1\nF0\nENDIF\nG1 X2\nM30\n") == "NC5002 5");
+  CHECK(Mill("G1 X1 F=R1\nG4 F0\nX2\nM30\n").empty());
+}
+
+TEST_CASE("value rules: a change of the kind of feed needs a new feed") {
+  CHECK(Mill("G94 G0 X0\nG1 X5 F100\nG95\nG1 X9\nM30\n") == "NC5002 4 error");
+  CHECK(Lathe("G95 G0 X0\nG1 X5 F0.2\nG94\nG0 X9\nG1 X2\nX3\nM30\n") == "NC5002 5 error");
+  CHECK(Lathe("G94 G0 X0 S500 M4\nG1 X5 F200\nG96 S100 M4\nG1 X2\nM30\n") == "NC5002 4 error");
+  CHECK(Mill("G94 G0 X0\nG1 X5 F100\nIF R1>0\nG95\nELSE\nG95\nENDIF\nG1 X9\nM30\n") == "NC5002 8 error");
+  CHECK(Mill("G94 G0 X0\nG1 X5 F100\nG95 F0.1\nG1 X9\nM30\n").empty());
+  CHECK(Mill("G94 G0 X0\nG1 X5 F100\nG95\nG1 X9 F0.1\nM30\n").empty());
+  CHECK(Mill("G94 G0 X0\nG1 X5 F100\nG95\nG0 X9\nM30\n").empty());
+  CHECK(Mill("G94 G0 X0\nG1 X5 F100\nG95\nG94\nG1 X9\nM30\n") == "NC5002 5 error");
+  // Some way lacks it, or a caller may have set it.
+  CHECK(Mill("G94 G0 X0\nG1 X5 F100\nG95\nIF R1>0\nF0.1\nENDIF\nG1 X9\nM30\n") == "NC5002 7");
+  CHECK(Sub("G95\nG1 X9\nM17\n").empty());
+  // There the number goes over.
+  CHECK(Check("fanuc-lathe-a", {{"o1.nc", "O1\nG98 G1 X5. F100.\nG99\nG1 X9.\nM30\n"}}).found.empty());
+}
+
+TEST_CASE("value rules: cycles and threads without a feed") {
+  CHECK(Mill("G0 X0 Y0 Z9\nCYCLE81(10,0,2,-5)\nM30\n") == "NC5002 2 error");
+  CHECK(Mill("G0 Z9\nMCALL CYCLE81(10,0,2,-5)\nX4\nX8\nMCALL\nM30\n") == "NC5002 3 error");
+  CHECK(Mill("G0 Z9 F50\nMCALL CYCLE81(10,0,2,-5)\nX4\nMCALL\nM30\n").empty());
+  CHECK(Macro("O1\nG0 X0. Z9.\nG81 Z-5. R2.\nX4.\nG80\nM30\n") == "NC5002 3 error");
+  CHECK(Macro("O1\nG0 X0. Z9.\nIF[#500EQ1]GOTO5\nG81 Z-5. R2. F50.\nN5 X4.\nG80\nM30\n") == "NC5002 5");
+  CHECK(Macro("O1\nG0 X0. Z9.\nG81 Z-5. R2. K0\nG80\nM30\n").empty());
+  CHECK(Check("fanuc-lathe-a", {{"o1.nc", "O1\nG0 X9. Z2.\nG32 Z-5.\nM30\n"}}).found == "NC5002 3 error");
+  CHECK(Lathe("G0 X9 Z2\nG33 Z-5 K1\nM30\n").empty());
+}
+
+TEST_CASE("value rules: ways without a feed that no run takes") {
+  CHECK(Mill("G0 X1\nFOR R1=1 TO 3\nG1 X=R1 F100\nENDFOR\nG1 X9\nM30\n").empty());
+  CHECK(Mill("G0 X1\nFOR R1=1 TO 3\nG1 X=R1\nF100\nENDFOR\nM30\n") == "NC5002 3");
+  CHECK(Mill("G0 X1\nFOR R1=3 TO 1\nF100\nENDFOR\nG1 X9\nM30\n").find("NC5002 5") != std::string::npos);
+  // A loop with a test, and one whose end an operator sets, are thought to run.
+  CHECK(Mill("G0 X1\nR1=0\nWHILE R1<3\nF100\nR1=R1+1\nENDWHILE\nG1 X9\nM30\n").empty());
+  CHECK(Mill("G0 X1\nFOR R1=1 TO R2\nF100\nENDFOR\nG1 X9\nM30\n").empty());
+  CHECK(Mill("R1=5\nG0 X1\nIF R1==5\nF100\nENDIF\nG1 X9\nM30\n").empty());
+  CHECK(Macro("O1\n#1=2\nG0 X1.\nIF[#1EQ3]GOTO5\nF100.\nN5 G1 X9.\nM30\n").empty());
+}
+
 }  // namespace ncport::check

@@ -34,6 +34,7 @@ struct PathWords {
   const ir::Word* radius = nullptr;
   const ir::Word* polar = nullptr;
   bool describes_arc = false;  // a centre, radius, angle or point that says which arc
+  bool via = false;            // a coordinate of the point that the arc goes through
   bool other = false;          // a word that this does not judge
 };
 
@@ -59,7 +60,10 @@ PathWords WordsOf(const ir::Module& module, const ir::Block& block, std::size_t 
         words.describes_arc = true;
         break;
       case WordOp::kOpeningAngle:
+        words.describes_arc = true;
+        break;
       case WordOp::kVia:
+        words.via = true;
         words.describes_arc = true;
         break;
       case WordOp::kAxisComputed:
@@ -96,7 +100,11 @@ void CheckArcWords(const Subject& subject, ir::ProgramId program, diag::Sink& si
           .help = "radius and angle alone describe the point in the plane; only the third axis may stand beside them";
       continue;
     }
-    if (!IsArc(modes.motion)) {
+    if (modes.motion == ir::Motion::kArcVia) {
+      if (words.via) continue;
+      sink.Report(diag::Code::kArcIncomplete, subject.PlaceOf(id, *moving)).help =
+          "write the point that the arc goes through: without one it is the start point";
+    } else if (!IsArc(modes.motion)) {
       const bool straight = modes.motion == ir::Motion::kLinear || modes.motion == ir::Motion::kRapid;
       if (!straight || words.radius == nullptr) continue;
       sink.ReportAs(diag::Severity::kWarning, diag::Code::kUnexpectedText, subject.PlaceOf(id, *words.radius),

@@ -63,6 +63,11 @@ std::optional<Limit> OwnLimit(const ir::Word& word, bool literal) {
     case WordOp::kChamfer:
     case WordOp::kPolarRadius:
       return Limit{.alarm = ir::AlarmClass::kGeometry};
+    case WordOp::kOpeningAngle:
+      return Limit{.high = 360,
+                   .range = "the opening angles, above 0 and up to 360",
+                   .alarm = ir::AlarmClass::kCircle,
+                   .above_low = true};
     case WordOp::kTurns:
       return Limit{.high = 999, .range = "0 to 999"};
     case WordOp::kFrameFactor:

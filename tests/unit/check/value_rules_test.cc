@@ -302,6 +302,41 @@ TEST_CASE("value rules: arcs by their radius that end where they start") {
   CHECK(Mill("G0 X4 Y5 F100\nG91 G2 X4 Y5 CR=8\nM30\n").empty());
 }
 
+TEST_CASE("value rules: arcs behind words that leave their points") {
+  // A centre that does not count from the start, and one on the start.
+  CHECK(Mill("G0 X0 Y0 F90\nG2 X30 Y0 I=AC(8) J=AC(0)\nM30\n") == "NC5004 2 error");
+  CHECK(Mill("G0 X0 Y0 F90\nG2 X30 Y0 I=AC(15) J=AC(0)\nM30\n").empty());
+  CHECK(Mill("G0 X3 Y4 F90\nG3 I0 J0\nM30\n") == "NC5004 2 error");
+  CHECK(Lathe("G18 DIAMON\nG0 X20 Z0 F0.1\nG2 X40 Z-10 I=AC(40) K=AC(0)\nM30\n").empty());
+  // Rounding, dwell, length and radius registers.
+  CHECK(Mill("G0 X0 Y0 F90\nG1 X30 RND=3\nY30\nG2 X70 Y30 CR=6\nM30\n") == "NC2005 4 error");
+  CHECK(Macro("O1\nG90 G54 G0 X8. Y4.\nG43 H2 Z1.\nG1 Z-1. F50\nG2 X12. Y4. I.3\nM30\n") == "NC5004 5 error");
+  CHECK(Macro("O1\nG90 G54 G0 X8. Y4. F50\nG41 D3 X9.\nG2 X12. Y4. I.3\nM30\n") == "NC5004 4 error");
+  // The length acts along the tool, which in that plane is an axis of the arc.
+  CHECK(Macro("O1\nG90 G54 G18 G0 X8. Z4. F50\nG43 H2\nG2 X12. Z4. I.3\nM30\n").empty());
+  // What a tool's data move nobody knows here; the run alarms.
+  CHECK(Mill("G0 X0 Y0 F90\nT3 D1\nG2 X40 Y0 CR=6\nM30\n") == "NC2005 3");
+  // Numbers that count increments, and inches.
+  CHECK(Macro("O1\nG90 G54 G21 G0 X1000 Y5. F50\nG2 X15. Y5. I2.5\nM30\n") == "NC5004 3 error");
+  CHECK(Macro("O1\nG90 G54 G21 G0 X5000 Y5. F50\nG2 X10. Y5. I2500\nM30\n").empty());
+  CHECK(Macro("O1\nG90 G54 G20 G0 X0. Y0. F5.\nG2 X1. Y0. R.4\nM30\n") == "NC2005 3 error");
+  CHECK(Macro("O1\nG90 G54 G0 X0. Y0. F5.\nG31 X9. Y9.\nG2 X19. Y9. R1.\nM30\n").empty());
+}
+
+TEST_CASE("value rules: arcs of called programs and by their angle") {
+  constexpr std::string_view kArc = "PROC SUB(REAL XEND,REAL RAD)\nG2 X=XEND Y0 CR=RAD\nM17\n";
+  CHECK(Set("G17 F90\nG0 X0 Y0\nSUB(30,5)\nM30\n", kArc) == "NC2005 2 error");
+  CHECK(Set("G17 F90\nG0 X0 Y0\nSUB(30,15)\nM30\n", kArc).empty());
+  CHECK(Set("G17 F90\nG0 X0 Y0\nTRANS X5\nSUB(30,5)\nM30\n", kArc).empty());
+  // Behind a call the position is what the program leaves.
+  CHECK(Set("G17 F90\nG0 X0 Y0\nSUB(30,15)\nG2 X30 Y0 CR=9\nM30\n", kArc).empty());
+  CHECK(Mill("G0 X0 Y0 F90\nR1=370\nG2 X10 Y0 AR=R1\nM30\n") == "NC2005 3 error");
+  CHECK(Mill("G0 X0 Y0 F90\nG2 X0 Y0 AR=90\nM30\n") == "NC1013 2 error");
+  CHECK(Mill("G0 X0 Y0 F90\nG2 X10 Y0 AR=90\nG2 X10 Y20 CR=10\nM30\n").empty());
+  CHECK(Mill("G0 X0 Y0 F90\nG2 I10 J0 AR=90\nG2 X0 Y0 CR=3\nM30\n").empty());
+  CHECK(Mill("MCALL SUB2\nG0 X0 Y0 F90\nG2 X30 Y0 CR=3\nMCALL\nM30\n%_N_SUB2_SPF\nG0 X30 Y0\nM17\n").empty());
+}
+
 TEST_CASE("value rules: arcs whose ends lie on no circle") {
   CHECK(Mill("G0 X0 Y0\nG2 X10 Y0 I4 J0 F100\nM30\n") == "NC5004 2 error");
   CHECK(Mill("G0 X0 Y0 F100\nG91 G3 X10 Y0 J5\nM30\n") == "NC5004 2 error");

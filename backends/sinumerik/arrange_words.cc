@@ -30,8 +30,7 @@ using ir::transform::ProgramEditor;
 
 /// What the programs use at all: words that only switch it off are not carried over when nothing does.
 struct Uses {
-  bool cycles = false, modal_calls = false, polar = false, length = false, rotation = false, scaling = false,
-       mirror = false;
+  bool cycles = false, modal_calls = false, polar = false, rotation = false, scaling = false, mirror = false;
 };
 
 Uses FindUses(const Module& module) {
@@ -50,9 +49,6 @@ Uses FindUses(const Module& module) {
             break;
           case WordOp::kPolarMode:
             uses.polar = uses.polar || word.index != 0;
-            break;
-          case WordOp::kLengthOffset:
-            uses.length = uses.length || word.index != 0 || word.value.Valid();
             break;
           case WordOp::kFrame:
             uses.rotation = uses.rotation || frame == ir::FrameOp::kRotateAbout;
@@ -116,8 +112,6 @@ class Pass {
         return !uses_.cycles;
       case WordOp::kPolarMode:
         return !uses_.polar;
-      case WordOp::kLengthOffset:
-        return !uses_.length;
       case WordOp::kModalCall:
         return !word.Extra<ir::CallId>().Valid() && !uses_.modal_calls;
       case WordOp::kFrame:
@@ -149,6 +143,11 @@ class Pass {
     }
     for (const WordId word_id : block.words) {
       Word word = module_.words[word_id];
+      // Where no program calls a tool: the offset that the machine starts with ends all the same (sinumerik-8.8).
+      if (word.op == WordOp::kLengthOffset && word.index == 0 && !word.value.Valid()) {
+        words.push_back(ir::MakeWord(WordOp::kEdge, 0, make_.Literal(0, ir::Type::kInt)));
+        continue;
+      }
       if (SwitchesNothing(word)) continue;
       switch (word.op) {
         case WordOp::kReturn:

@@ -45,7 +45,7 @@ TEST_CASE("arrange_words: a dwell stands alone, between what acts before and beh
 
 TEST_CASE("arrange_words: words that switch off what nothing switches on go") {
   CHECK(Arranged("  @m:1 : cycle none; polar-mode 0; length-offset; frame rotate-end; plane xy\n").text ==
-        "plane xy\n");
+        "edge = 0; plane xy\n");
   CHECK(Arranged("  @m:1 : frame rotate-end\n  @m:2 : frame rotate-about; frame-angle = 5\n").text.find("rotate-end") !=
         std::string::npos);
   CHECK(Arranged("  @m:1 : cycle none\n  @m:2 : cycle drill; axis Z = 1\n").text.find("cycle none") !=

@@ -109,6 +109,17 @@ void Comparer::CompareCompensation(const Event& a, const Event& b) {
     Fail(&a, &b, "cutter compensation is in force on one side only, or the other way");
 }
 
+namespace {
+
+/// 54, 54.1 P1, none: as a trace says it (contracts section 5).
+std::string OffsetName(const Selected& selected) {
+  if (selected.wcs == 0) return "none";
+  return selected.wcs_extension == 0 ? fmt::format("{}", selected.wcs)
+                                     : fmt::format("{}.1 P{}", selected.wcs, selected.wcs_extension);
+}
+
+}  // namespace
+
 /// The work offset in force. A source that selects none works with the one that is in force, whichever it is.
 void Comparer::CompareWorkOffset(const Event& a, const Event& b) {
   const Selected& sa = source_.Now();
@@ -125,7 +136,7 @@ void Comparer::CompareWorkOffset(const Event& a, const Event& b) {
     }
   }
   if (sa.wcs != sb.wcs || sa.wcs_extension != sb.wcs_extension)
-    Fail(&a, &b, fmt::format("work offset {} became {}", sa.wcs, sb.wcs));
+    Fail(&a, &b, fmt::format("work offset {} became {}", OffsetName(sa), OffsetName(sb)));
 }
 
 /// The path mode in force. A source that selects none works with the one that is in force, whichever it is.

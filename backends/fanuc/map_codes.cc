@@ -32,8 +32,10 @@ bool MapWorkOffsets(const RaiseInput& input, Translation& out, diag::Sink& sink)
         Word word = module.words[word_id];
         if (word.op != WordOp::kWorkOffset) continue;
         OffsetUse use{word.extra, 0, word.extra, 0};
-        const std::string name = fmt::format("G{}", word.extra);
+        // Number 0 is none, which the source writes as G500; G0 is a rapid.
+        const std::string name = word.extra == 0 ? std::string("G500") : fmt::format("G{}", word.extra);
         const dialects::WordMapping* mapping = input.config == nullptr ? nullptr : input.config->FindOffset(name);
+        if (mapping == nullptr && input.config != nullptr && word.extra == 0) mapping = input.config->FindOffset("G0");
         if (mapping != nullptr) {
           use.target = NumberBehind(mapping->target, 'G');
           use.target_extension = NumberBehind(mapping->target, 'P');

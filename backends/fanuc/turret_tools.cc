@@ -61,6 +61,23 @@ bool StaysIn(const RaiseInput& input, std::string_view tool, const dialects::Wor
   });
 }
 
+/// Words that could stand for the tool: with its own number where the source gives one, else with letters for digits
+/// that only the machine knows.
+std::string ExampleRow(const ToolUse& use, bool changes_by_m6, bool no_offset) {
+  const std::string station = use.source_tool == 0 ? "ss" : fmt::format("{:02}", use.source_tool);
+  const std::string where = use.source_tool == 0 ? "ss: its station" : "";
+  if (changes_by_m6) {
+    const std::string suffix = use.source_edge > 1 ? "tt" : "01";
+    return fmt::format("\"T{}.{} M6\"{}{}", station, suffix, where.empty() ? "" : "  (" + where + ")",
+                       use.source_edge > 1 ? fmt::format("  (tt: what stands for D{})", use.source_edge) : "");
+  }
+  if (no_offset) return fmt::format("\"T{}00\"  (the station of the tool, its offset off)", station);
+  const bool open = use.source_tool == 0 || use.source_edge > 1;
+  if (!open) return fmt::format("\"T{0}{0}\"", station);
+  return fmt::format("\"T{}tt\"  ({}{}tt: the offset that stands for D{})", station, where, where.empty() ? "" : ", ",
+                     std::max<std::uint32_t>(use.source_edge, 1));
+}
+
 }  // namespace
 
 bool MapTurretTools(const RaiseInput& input, Translation& out, diag::Sink& sink) {
@@ -152,10 +169,8 @@ bool MapTurretTools(const RaiseInput& input, Translation& out, diag::Sink& sink)
         auto& finding = sink.Report(diag::Code::kUnmappedTool, range, use.source_words);
         const std::string quote = use.source_words.find('"') == std::string::npos ? "\"" : "'";
         const bool no_offset = lathe && !changes_by_m6 && edge != nullptr && use.source_edge == 0;
-        finding.help = fmt::format(
-            "add to ncport.toml, with the words of your machine:  [tools]  {0}{1}{0} = \"{2}\"{3}", quote,
-            use.source_words, no_offset ? fmt::format("T{:02}00", use.source_tool == 0 ? 1 : use.source_tool) : example,
-            no_offset ? "  (the station of the tool, its offset off)" : "");
+        finding.help = fmt::format("add to ncport.toml, with the words of your machine:  [tools]  {0}{1}{0} = {2}",
+                                   quote, use.source_words, ExampleRow(use, changes_by_m6, no_offset));
         ok = false;
         continue;
       }

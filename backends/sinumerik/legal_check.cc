@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -35,8 +37,10 @@ class LegalCheck {
   }
 
  private:
+  /// One finding for a block, however many of its words have no form.
   void Refuse(const Word& word, std::string_view what) {
     ok_ = false;
+    if (block_->origin.Valid() && !refused_.insert(block_->origin.value).second) return;
     sink_.Report(diag::Code::kNotExpressible, module_.RangeOf(*block_, word), what, input_.profile->name);
   }
 
@@ -92,6 +96,10 @@ class LegalCheck {
       case WordOp::kReturnLevel:
         if (!expressions_) return;
         break;
+      case WordOp::kFrame:
+      case WordOp::kFrameAngle:
+        if (!expressions_ && IsMapped(word)) return;
+        break;
       case WordOp::kAxis:
         if (word.index >= ir::kLetterAxes) Refuse(word, "an axis with a name of its own");
         if (!HasAxis(word.index)) Refuse(word, "an axis that the target does not have");
@@ -109,6 +117,13 @@ class LegalCheck {
     if (word.value.Valid() ? !address : !code) {
       Refuse(word, word.spelling != 0 ? module_.View(module_.spellings[word.spelling].text) : ir::NameOf(word.op));
     }
+  }
+
+  /// A later pass gives these frames their form.
+  [[nodiscard]] static bool IsMapped(const Word& word) {
+    if (word.op == WordOp::kFrameAngle) return true;
+    const auto op = static_cast<ir::FrameOp>(word.index);
+    return op == ir::FrameOp::kLocalShift || op == ir::FrameOp::kRotateAbout || op == ir::FrameOp::kRotateEnd;
   }
 
   [[nodiscard]] bool HasAxis(std::uint8_t axis) const {
@@ -147,6 +162,7 @@ class LegalCheck {
   diag::Sink& sink_;
   bool expressions_;
   const ir::Block* block_ = nullptr;
+  std::set<std::uint32_t> refused_;  // origins of blocks
   bool ok_ = true;
 };
 

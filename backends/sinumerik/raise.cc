@@ -344,9 +344,10 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   NumbersToNamesResult names = NumbersToNames(module, CellConfig(input, empty), sink);
   out.cells = std::move(names.map);
   TellReadAtEntry(empty, out);
+  ok = names.ok && CheckLegal(input, module, true, sink) && ok;  // while words still have the names of the source
   DropSpellings(out);
   ShiftSkipLevels(input, module);
-  return names.ok && CheckLegal(input, module, true, sink) && ok;
+  return ok;
 }
 
 }  // namespace ncport::backends::sinumerik

@@ -68,8 +68,9 @@ const TargetTool* ToolRows::Take(const SourceRange& at, const dialects::WordMapp
   if (!target) {
     ok_ = false;
     if (!asked_.insert(key_text).second) return nullptr;
-    sink_.Report(diag::Code::kUnmappedTool, at, key_text).help = fmt::format(
-        "add to ncport.toml, with the tool and edge of your machine:  [tools]  \"{}\" = \"T1 D1\"", key_text);
+    sink_.Report(diag::Code::kUnmappedTool, at, key_text).help =
+        fmt::format("add to ncport.toml, with the tool and edge of your machine:  [tools]  \"{}\" = \"T{} D1\"",
+                    key_text, std::get<0>(key));
     return nullptr;
   }
   const auto [tool, length, radius] = key;

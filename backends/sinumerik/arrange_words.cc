@@ -188,7 +188,7 @@ class Pass {
   /// G28 goes by way of the point that its axis words name, and leaves the motion mode alone (fanuc-8.1). The reference
   /// points of the source are the fixed points 1 and 2 of the target, which the machine builder sets.
   void Reference(BlockId id, const Block& block, const ir::ModalState& at, ProgramEditor& editor) {
-    std::vector<Word> via, point, other;
+    std::vector<Word> via, point, other, behind;
     ir::ReferenceKind kind = ir::ReferenceKind::kFromReference;
     for (const WordId word_id : block.words) {
       const Word word = module_.words[word_id];
@@ -207,6 +207,11 @@ class Pass {
         point.push_back(axis);
       } else if (word.op == WordOp::kDistance) {
         other.push_back(word);
+      } else if (word.op == WordOp::kSpindle || word.op == WordOp::kSpeed || word.op == WordOp::kFeed ||
+                 word.op == WordOp::kAux) {
+        // M5 and M9 act when the axes are there, M3 when they start.
+        const bool waits = word.phase == ir::Phase::kAfter || word.phase == ir::Phase::kLast;
+        (waits ? behind : other).push_back(word);
       } else {
         return Refuse(block, word, "a word beside a move to the reference point");
       }
@@ -223,6 +228,7 @@ class Pass {
     point.insert(point.begin(), {ir::MakeWord(WordOp::kReference, ir::ReferenceKind::kFixedPoint), number});
     editor.SetWords(id, first);
     editor.PutBehind(id, point);
+    if (!behind.empty()) editor.PutBehind(id, behind);
     if (at.motion != ir::Motion::kRapid) editor.PutBehind(id, {ir::MakeWord(WordOp::kMotion, at.motion)});
     Assume("G75 goes to fixed point 1, which must be the reference point of the source machine (sinumerik-8.2)");
   }

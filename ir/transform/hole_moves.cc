@@ -102,6 +102,9 @@ std::string_view HoleMoves::Make(ProgramId program, const Hole& hole, const Put&
       if (hole.spindle == SpindleState::kCw || hole.spindle == SpindleState::kCcw) spindle(hole.spindle);
       return {};
     }
+    case Cycle::kRigidTap:
+    case Cycle::kRigidTapLeft:
+      return "rigid tapping";
     default:
       return "this drilling cycle, whose way the text does not tell,";
   }

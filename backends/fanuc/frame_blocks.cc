@@ -367,17 +367,24 @@ bool StopForChange(const ChangeStates& states, ir::ProgramId program, BlockId id
   if (state.coolant == Coolant::kMaybe)
     return refuse("a tool change with coolant that is on only on some ways to it", "write M8 or M9 before the tool");
   static constexpr std::string_view kAdded =
-      "tool change: coolant and constant surface speed off before the way home, coolant on again behind it";
-  const bool any = state.coolant != Coolant::kOff || state.speed != ChangeStates::SurfaceSpeed::kOff;
+      "tool change: coolant off before the way home and on again behind it, G97 where the speed is chosen again behind "
+      "it";
+  const bool any = state.coolant != Coolant::kOff ||
+                   (state.speed != ChangeStates::SurfaceSpeed::kOff && states.SpeedFollows(program, id));
   if (any && std::ranges::find(out.added, kAdded) == out.added.end()) out.added.emplace_back(kAdded);
   if (state.coolant != Coolant::kOff) {
     front.emplace_back("M9");
     editor.InsertAfter(id, AddedBlock(module, editor, id, state.coolant == Coolant::kM7 ? "M7" : "M8"));
   }
   if (state.speed == ChangeStates::SurfaceSpeed::kOff) return true;
-  if (!states.SpeedFollows(program, id))
-    return refuse("a tool change under constant surface speed that goes on in it",
-                  "the way home needs G97: write G96 S or G97 S again behind the tool, before it cuts");
+  if (!states.SpeedFollows(program, id)) {
+    // Which S to go back to is not one number here, and G97 would stay.
+    static constexpr std::string_view kKept =
+        "tool change under constant surface speed: the spindle follows X on the way home up to its limit, since no G96 "
+        "or G97 stands behind the tool (mazak-lathe-5.2)";
+    if (std::ranges::find(out.assumptions, kKept) == out.assumptions.end()) out.assumptions.emplace_back(kKept);
+    return true;
+  }
   front.emplace_back("G97");
   return true;
 }

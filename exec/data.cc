@@ -1,9 +1,14 @@
 // Assignments, definitions, values from outside, and the variables at the end.
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
+#include <string_view>
 
 #include "base/number_text.h"
 #include "exec/runner.h"
+#include "ir/axis_names.h"
+#include "ir/length_units.h"
 #include "ir/ops/arithmetic.h"
 
 namespace ncport::exec {
@@ -22,14 +27,44 @@ void Runner::Assign(const ir::Word& word, const Value& value) {
 }
 
 /// Data of the machine are written. None of them shows in traces, but with another work offset nobody knows where the
-/// axes stand in the work system.
+/// axes stand in the work system, and two programs that write other data differ: the event holds them in mm, by letter.
 void Runner::DataSetting(ir::CallId id) {
-  for (const ir::ArgId arg : session_.module.calls[id].args) {
-    const ir::Arg& data = session_.module.args[arg];
+  const ir::Module& module = session_.module;
+  const ir::Call& call = module.calls[id];
+  ir::Units units = channel_.modal.units;
+  ir::Distance distance = channel_.modal.distance;
+  for (const ir::WordId word_id : module.blocks[session_.block].words) {
+    const ir::Word& word = module.words[word_id];
+    if (word.op == ir::WordOp::kUnits) units = static_cast<ir::Units>(word.index);
+    if (word.op == ir::WordOp::kDistance) distance = static_cast<ir::Distance>(word.index);
+  }
+  const bool inch = ir::LengthsAreInches(units);
+  std::map<char, double> written;
+  for (const ir::ArgId arg : call.args) {
+    const ir::Arg& data = module.args[arg];
     const Value value = evaluator_.Eval(data.value);
     if (session_.halted) return;
-    if (data.letter == 'L' && (value.number == 2 || value.number == 20)) channel_.uncertain |= channel_.base_known;
+    if (value.IsVacant()) continue;
+    double number = evaluator_.ToNumber(value);
+    if (data.letter == 'L' && (number == 2 || number == 20)) channel_.uncertain |= channel_.base_known;
+    const std::optional<std::uint8_t> axis = ir::AxisOf(data.letter);
+    const bool length =
+        axis ? !ir::IsRotary(*axis) : std::string_view("IJKR").find(data.letter) != std::string_view::npos;
+    if (data.increments) number *= length && inch ? session_.machine.increment / 10 : session_.machine.increment;
+    written[data.letter] = length ? number * ir::MmPerLengthUnit(units) : number;
   }
+  TextBuffer text;
+  text.Append(module.View(call.name));
+  if (distance == ir::Distance::kIncremental) text.Append(" ADDED");
+  for (const auto& [letter, number] : written) {
+    constexpr std::uint8_t kDecimals = 6;
+    text.Append(' ');
+    text.Append(letter);
+    AppendTrimmed(text, number, kDecimals);
+  }
+  Event& event = emitter_.Begin(EventKind::kData);
+  event.text = text.View();
+  emitter_.Send(event);
 }
 
 void Runner::AssignList(ir::AssignListId id) {

@@ -39,6 +39,7 @@ enum class EventKind : std::uint8_t {
   kAlarm,
   kEnd,
   kSetVariable,
+  kData,  // data of the machine are written (G10): `text` is all of them; comparisons must know, traces leave it out
 };
 
 /// Spindles of a machine that a run can tell apart.

@@ -177,6 +177,7 @@ void Details(Object& object, const Event& event, const ir::Module& module) {
     case EventKind::kStop:
     case EventKind::kOptionalStop:
     case EventKind::kEnd:
+    case EventKind::kData:
       return;
   }
 }

@@ -224,6 +224,8 @@ void Line(TextBuffer& buffer, const Event& event, const ir::Module& module) {
       buffer.Append("SET");
       Text(buffer, event.text);
       return Text(buffer, event.code);
+    case EventKind::kData:
+      return;
   }
 }
 
@@ -241,6 +243,7 @@ TraceWriter::TraceWriter(OutputSink& output, const ir::Module& module, TraceForm
 
 bool TraceWriter::OnEvent(const Event& event) {
   if (event.kind == EventKind::kPath && event.path == ir::PathMode::kUnknown) return true;
+  if (event.kind == EventKind::kData) return true;
   if (format_ == TraceFormat::kText) {
     AppendTraceLine(buffer_, event, module_);
   } else {

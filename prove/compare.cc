@@ -72,6 +72,8 @@ std::string_view KindName(EventKind kind) {
       return "its end";
     case EventKind::kSetVariable:
       return "a final value";
+    case EventKind::kData:
+      return "data for the machine";
   }
   return "an event";
 }
@@ -150,6 +152,9 @@ void Comparer::ComparePair(const Event& a, const Event& b) {
     case EventKind::kMessage:
     case EventKind::kPrint:
       if (a.text != b.text) Fail(&a, &b, fmt::format("the text \"{}\" became \"{}\"", a.text, b.text));
+      break;
+    case EventKind::kData:
+      if (a.text != b.text) Fail(&a, &b, fmt::format("the data {} became {}", a.text, b.text));
       break;
     case EventKind::kAlarm:
       CompareEnds(a, b);

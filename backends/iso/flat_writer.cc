@@ -157,6 +157,8 @@ void FlatWriter::Dispatch(const exec::Event& event) {
     case EventKind::kEnd:
     case EventKind::kSetVariable:
       return;  // Finish writes the end
+    case EventKind::kData:
+      return;  // refused with the word
   }
 }
 

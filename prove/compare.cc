@@ -223,8 +223,8 @@ Comparison Comparer::Run() {
 }
 
 Comparison Compare(const RecordedTrace& source, const RecordedTrace& target, const CompareOptions& options,
-                   const ir::WorkOffset& target_start) {
-  return Comparer(source, target, options, target_start).Run();
+                   const ir::WorkOffset& target_start, const ir::WorkOffset& source_start) {
+  return Comparer(source, target, options, target_start, source_start).Run();
 }
 
 }  // namespace ncport::prove

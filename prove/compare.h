@@ -85,8 +85,8 @@ struct Comparison {
 };
 
 /// Both traces whole. Events of added blocks (Event::added) of the target are left out where the contract allows them.
-/// `target_start`: the work offset in which the target starts, which it need not select.
+/// `target_start`, `source_start`: the work offset in which that side starts, which it need not select.
 Comparison Compare(const RecordedTrace& source, const RecordedTrace& target, const CompareOptions& options,
-                   const ir::WorkOffset& target_start = {});
+                   const ir::WorkOffset& target_start = {}, const ir::WorkOffset& source_start = {});
 
 }  // namespace ncport::prove

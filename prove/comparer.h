@@ -21,11 +21,11 @@ std::string AxisName(std::uint8_t axis);
 class Comparer {
  public:
   Comparer(const RecordedTrace& source, const RecordedTrace& target, const CompareOptions& options,
-           const ir::WorkOffset& target_start)
+           const ir::WorkOffset& target_start, const ir::WorkOffset& source_start)
       : options_(options),
         source_events_(source.Events()),
         target_events_(target.Events()),
-        source_(source_events_, options.maps, true, {}),
+        source_(source_events_, options.maps, true, source_start),
         target_(target_events_, options.maps, false, target_start) {}
 
   Comparison Run();

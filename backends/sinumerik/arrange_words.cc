@@ -12,6 +12,7 @@
 #include "ir/analysis/flow_analyses.h"
 #include "ir/block_words.h"
 #include "ir/builder.h"
+#include "ir/literal_value.h"
 #include "ir/make_word.h"
 #include "ir/transform/program_editor.h"
 
@@ -219,17 +220,29 @@ class Pass {
     if (via.empty() || at.motion == ir::Motion::kUnknown || block.skip_level != Block::kNoSkip) {
       return Refuse(block, module_.words[block.words[0]], "this move to the reference point");
     }
+    // `G91 G28 Z0`: the way is nothing, also from a place that is not known, where a step by nothing could not be run.
+    const bool stays = std::ranges::all_of(via, [&](const Word& word) {
+      const bool step = word.mode == ir::ValueMode::kModal ? at.distance == ir::Distance::kIncremental
+                                                           : word.mode == ir::ValueMode::kIncremental;
+      return step && ir::LiteralValue(module_, word.value) == 0.0;
+    });
     std::vector<Word> first = other;
-    first.push_back(ir::MakeWord(WordOp::kMotion, ir::Motion::kRapid));
-    first.insert(first.end(), via.begin(), via.end());
+    if (!stays) {
+      first.push_back(ir::MakeWord(WordOp::kMotion, ir::Motion::kRapid));
+      first.insert(first.end(), via.begin(), via.end());
+    }
     Word number = ir::MakeWord(WordOp::kInert);
     number.spelling = ir::AddSpelling(module_, "FP", "sinumerik-8.2");
     number.value = make_.Number("1", ir::Type::kInt);
     point.insert(point.begin(), {ir::MakeWord(WordOp::kReference, ir::ReferenceKind::kFixedPoint), number});
-    editor.SetWords(id, first);
-    editor.PutBehind(id, point);
+    if (first.empty()) {
+      editor.SetWords(id, point);
+    } else {
+      editor.SetWords(id, first);
+      editor.PutBehind(id, point);
+    }
     if (!behind.empty()) editor.PutBehind(id, behind);
-    if (at.motion != ir::Motion::kRapid) editor.PutBehind(id, {ir::MakeWord(WordOp::kMotion, at.motion)});
+    if (!stays && at.motion != ir::Motion::kRapid) editor.PutBehind(id, {ir::MakeWord(WordOp::kMotion, at.motion)});
     Assume("G75 goes to fixed point 1, which must be the reference point of the source machine (sinumerik-8.2)");
   }
 

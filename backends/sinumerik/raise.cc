@@ -122,7 +122,11 @@ bool MapSystemVariables(const RaiseInput& input, Translation& out, diag::Sink& s
         const ExprId read = make.System(position, {make.AxisName(axis)});
         const bool diameter =
             input.source_machine->position_reads_diameter && axis == input.source_machine->transverse_axis;
-        // $P_EP is a radius (sinumerik-8.5 names diameters for $AA_IW only).
+        // $P_EP is a radius (sinumerik-8.5 names diameters for $AA_IW only); the card has no row that says so.
+        constexpr std::string_view kAssumed =
+            "$P_EP of the transverse axis is a radius under diameter programming too: check it on the control";
+        if (diameter && std::ranges::find(out.assumptions, kAssumed) == out.assumptions.end())
+          out.assumptions.emplace_back(kAssumed);
         return diameter ? make.Unary(ExprOp::kGroup, make.Binary(ExprOp::kMultiply, make.Number("2"), read)) : read;
       }
       refused.insert(id.value);

@@ -46,6 +46,8 @@ void SetOtherCodes(const Profile& profile, System system, ir::Machine& machine) 
   for (const SpecialRow& row : SpecialCodes()) {
     if (FindSpecial(system, row.text) != &row) continue;
     if (row.special == Special::kLocalSubprogram && !profile.fanuc.local_call.Or(false)) continue;
+    const bool haas = profile.fanuc.variant.Is(Variant::kHaas);
+    if (row.special == Special::kExtendedOffset && row.rule == kHaasRule && !haas) continue;
     ir::CodeMeaning meaning{.op = Op::kVerbatim};
     if (row.special == Special::kQuiet) meaning.op = Op::kInert;
     if (row.special == Special::kCycleEnd)

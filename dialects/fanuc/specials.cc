@@ -32,6 +32,7 @@ constexpr SpecialRow kSpecials[] = {
     {"G92.1", S::kPresetReset, kMills | kB | kC, {0, 0, 0}, "preset of work coordinates", "fanuc-8.1"},
     {"G50.3", S::kPresetReset, kA, {0, 0, 0}, "preset of work coordinates", "fanuc-8.1"},
     {"G54.1", S::kExtendedOffset, kAll, {14, 14, 12}, "extended work offset", "fanuc-8.4"},
+    {"G154", S::kExtendedOffset, kMills | kA, {14, 14, 0}, "extended work offset (Haas)", kHaasRule},
 
     {"G16", S::kPolarOn, kMills | kM, {17, 0, 18}, "polar words", "fanuc-8.5"},
     {"G15", S::kPolarOff, kMills | kM, {17, 0, 18}, "polar words off", "fanuc-8.5"},

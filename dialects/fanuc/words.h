@@ -77,6 +77,8 @@ struct SpecialRow {
   std::string_view title;  // for messages: "local coordinate shift"
   std::string_view rule;
 };
+/// Rule of the words that only Haas controls have.
+inline constexpr std::string_view kHaasRule = "fanuc-13";
 /// Row of this code in the system, or null.
 const SpecialRow* FindSpecial(System system, std::string_view text);
 std::span<const SpecialRow> SpecialCodes();

@@ -35,6 +35,8 @@ CodeIndex::CodeIndex(const dialects::Profile& profile, words::System system) {
     if (row.special == words::Special::kRefusedByHaas &&
         !profile.fanuc.variant.Is(dialects::FanucSettings::Variant::kHaas))
       continue;
+    const bool haas = profile.fanuc.variant.Is(dialects::FanucSettings::Variant::kHaas);
+    if (row.special == words::Special::kExtendedOffset && row.rule == words::kHaasRule && !haas) continue;
     Add(row.text, {.special = &row});
   }
   for (const words::CycleRow& row : words::Cycles()) {

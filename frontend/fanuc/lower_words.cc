@@ -271,6 +271,9 @@ bool Lowering::AddLetter(const Pending& pending, const Context& context, const w
         return true;
       }
       if (context.quiet || context.reference || context.length_switch) return inert();
+      // A dwell of a Haas: seconds with a point (fanuc-13).
+      if (IsLiteral(pending) && HasPoint(pending) && profile_.fanuc.variant.Is(dialects::FanucSettings::Variant::kHaas))
+        return field(ir::CycleField::kDwell, true);
       return field(ir::CycleField::kDwell, false, true);
     case 'Q':
       if (context.subprogram) return true;
@@ -312,7 +315,11 @@ bool Lowering::AddCycleWord(const Pending& pending, const Context& context, bool
   // Mazak posts write the steps of grooves and threads with a point (mazak-lathe-2.5).
   const bool point =
       IsLiteral(pending) && HasPoint(pending) && profile_.fanuc.variant.Is(dialects::FanucSettings::Variant::kMazak);
-  const bool length = letter.kind == CycleLetter::kLength || (letter.kind == CycleLetter::kThousandths && point);
+  // A dwell of a Haas: seconds with a point (fanuc-13).
+  const bool seconds = IsLiteral(pending) && HasPoint(pending) && letter.field == ir::CycleField::kDwell &&
+                       profile_.fanuc.variant.Is(dialects::FanucSettings::Variant::kHaas);
+  const bool length =
+      letter.kind == CycleLetter::kLength || (letter.kind == CycleLetter::kThousandths && (point || seconds));
   Word& word = AddWord(WordOp::kCycleValue, pending);
   word.index = At8(letter.field);
   word.spelling = SpellingOf(std::string(1, pending.letter), context.cycle->rule);

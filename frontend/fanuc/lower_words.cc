@@ -133,8 +133,8 @@ bool Lowering::AddAxis(const Pending& pending, const Context& context, const wor
 bool Lowering::AddStartAngle(const Pending& pending, std::string_view rule) {
   Word& word = AddWord(WordOp::kStartAngle, pending);
   word.spelling = SpellingOf("Q", rule);
-  if (!SetValue(word, pending, true)) return false;
-  if (!IsLiteral(pending) || !HasPoint(pending)) word.flags |= Word::kIncrements;
+  if (!SetValue(word, pending, false)) return false;  // with a point it is no count
+  word.flags |= Word::kIncrements;
   return true;
 }
 

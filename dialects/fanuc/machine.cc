@@ -52,7 +52,8 @@ void SetOtherCodes(const Profile& profile, System system, ir::Machine& machine) 
     if (row.special == Special::kQuiet) meaning.op = Op::kInert;
     if (row.special == Special::kCycleEnd)
       meaning = {.op = Op::kCycle, .index = static_cast<std::uint8_t>(ir::Cycle::kNone)};
-    if (row.special == Special::kExtendedOffset) meaning = {.op = Op::kWorkOffset, .index = 1, .extra = 54};
+    if (row.special == Special::kExtendedOffset && (row.text == "G54.1" || row.text == "G154"))
+      meaning = {.op = Op::kWorkOffset, .index = 1, .extra = 54};
     AddComputedCode(row.text, meaning, machine);
   }
   for (const CycleRow& row : Cycles()) {

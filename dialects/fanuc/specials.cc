@@ -117,6 +117,26 @@ constexpr SpecialRow kSpecials[] = {
     {"G187", S::kRefusedByHaas, kMills | kA, {0, 0, 0}, "smoothness", "fanuc-13"},
     {"G117", S::kRefused, kMills | kMazak, {0, 0, 0}, "M functions during motion", "mazak-lathe-2.3"},
     {"G118", S::kRefused, kMazak, {0, 0, 0}, "M functions during motion", "mazak-lathe-2.3"},
+    // The first twenty extended offsets by a number of their own: both name #7001 and up (fanuc-9.9). G112 and G113,
+    // polar interpolation on lathes, and G117 of mills stay refused.
+    {"G110", S::kExtendedOffset, kMills | kA, {14, 14, 0}, "extended work offset 1 (Haas)", kHaasRule},
+    {"G111", S::kExtendedOffset, kMills | kA, {14, 14, 0}, "extended work offset 2 (Haas)", kHaasRule},
+    {"G114", S::kExtendedOffset, kMills | kA, {14, 14, 0}, "extended work offset 5 (Haas)", kHaasRule},
+    {"G115", S::kExtendedOffset, kMills | kA, {14, 14, 0}, "extended work offset 6 (Haas)", kHaasRule},
+    {"G116", S::kExtendedOffset, kMills | kA, {14, 14, 0}, "extended work offset 7 (Haas)", kHaasRule},
+    {"G117", S::kExtendedOffset, kA, {14, 14, 0}, "extended work offset 8 (Haas)", kHaasRule},
+    {"G118", S::kExtendedOffset, kMills | kA, {14, 14, 0}, "extended work offset 9 (Haas)", kHaasRule},
+    {"G119", S::kExtendedOffset, kMills | kA, {14, 14, 0}, "extended work offset 10 (Haas)", kHaasRule},
+    {"G120", S::kExtendedOffset, kMills | kA, {14, 14, 0}, "extended work offset 11 (Haas)", kHaasRule},
+    {"G121", S::kExtendedOffset, kMills | kA, {14, 14, 0}, "extended work offset 12 (Haas)", kHaasRule},
+    {"G122", S::kExtendedOffset, kMills | kA, {14, 14, 0}, "extended work offset 13 (Haas)", kHaasRule},
+    {"G123", S::kExtendedOffset, kMills | kA, {14, 14, 0}, "extended work offset 14 (Haas)", kHaasRule},
+    {"G124", S::kExtendedOffset, kMills | kA, {14, 14, 0}, "extended work offset 15 (Haas)", kHaasRule},
+    {"G125", S::kExtendedOffset, kMills | kA, {14, 14, 0}, "extended work offset 16 (Haas)", kHaasRule},
+    {"G126", S::kExtendedOffset, kMills | kA, {14, 14, 0}, "extended work offset 17 (Haas)", kHaasRule},
+    {"G127", S::kExtendedOffset, kMills | kA, {14, 14, 0}, "extended work offset 18 (Haas)", kHaasRule},
+    {"G128", S::kExtendedOffset, kMills | kA, {14, 14, 0}, "extended work offset 19 (Haas)", kHaasRule},
+    {"G129", S::kExtendedOffset, kMills | kA, {14, 14, 0}, "extended work offset 20 (Haas)", kHaasRule},
 };
 
 using Y = ir::Cycle;

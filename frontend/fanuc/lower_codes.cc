@@ -276,7 +276,13 @@ bool Lowering::AddSpecial(const Pending& pending, const Context& context) {
       const Pending* number = FindLetter('P');
       std::uint8_t flags = 0;
       if (number != nullptr && !Whole(*number)) return false;
-      const ExprId value = number != nullptr ? ValueOf(*number, flags) : Implied(1);  // missing: P1 (mazak-lathe-3.4)
+      // G110 to G129 of a Haas are the offsets 1 to 20.
+      constexpr double kFirstOwn = 110, kLastOwn = 129;
+      const bool own = token.number >= kFirstOwn && token.number <= kLastOwn;
+      if (own && number != nullptr) return Meaningless(*number);
+      const ExprId value = own                 ? Implied(token.number - kFirstOwn + 1)
+                           : number != nullptr ? ValueOf(*number, flags)
+                                               : Implied(1);  // missing: P1 (mazak-lathe-3.4)
       Word& word = add(WordOp::kWorkOffset, 0);
       word.extra = 54;
       word.value = value;

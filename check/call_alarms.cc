@@ -125,8 +125,13 @@ class CallAlarms final : public ValueRule {
 
   void Report(const Blamed& blamed, diag::Sink& sink) const {
     const ir::Word& word = input_.module.words[blamed.alarm.word];
-    const bool known = blamed.alarm.number >= 0;
-    const std::string number = known ? fmt::format("{:.0f}", blamed.alarm.number) : "the program sets";
+    // Where the card knows no number of a standard cycle, its text here sets one that only users have.
+    constexpr double kFirstOfUsers = 65000;
+    const bool made_up = blamed.alarm.number >= kFirstOfUsers;
+    const bool known = blamed.alarm.number >= 0 && !made_up;
+    const std::string number = made_up ? "of the cycle"
+                               : known ? fmt::format("{:.0f}", blamed.alarm.number)
+                                       : "the program sets";
     diag::Diagnostic& finding = sink.Report(diag::Code::kCallAlarms, blamed.at, number);
     const ir::ExprId text = word.Extra<ir::ExprId>();
     if (text.Valid() && input_.module.exprs[text].op == ir::ExprOp::kText)

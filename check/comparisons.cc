@@ -57,7 +57,8 @@ void CheckComparisons(const ir::Module& module, ir::ProgramId program, diag::Sin
         SourceRange at = module.RangeOf(block, found);
         if (at.end <= at.begin) at = module.RangeOf(block, module.words[word]);
         sink.Report(diag::Code::kComparisonBesideLogic, at, name).help =
-            "put each comparison in brackets, for example (A==1) AND (B==1)";
+            logic == ExprOp::kNot ? "put the comparison in brackets: NOT (A==1)"
+                                  : "put each comparison in brackets, for example (A==1) AND (B==1)";
       });
     }
   }

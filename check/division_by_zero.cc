@@ -36,7 +36,8 @@ class DivisionByZero final : public ValueRule {
     finding.at = Marked(site, id, expr);
     finding.notes = Reasons(site, bare, lookup);
     if (!literal && !input_.options.test_example.empty())
-      finding.help = fmt::format(fmt::runtime(input_.options.test_example), name);
+      finding.help = fmt::format(fmt::runtime(input_.options.test_example), name,
+                                 divisor.low < 0 && divisor.IsBounded() ? "==" : "<=");
     finding.control = ControlAlarm(ir::AlarmClass::kArithmetic);
     findings_.Add(id, 0, std::move(finding));
   }

@@ -16,21 +16,19 @@ using ir::BlockId;
 using ir::Search;
 using ir::TargetKind;
 
-/// A label or block number of the program that is spelled nearly so, or nothing.
+/// A label of the program that is spelled nearly so, or nothing.
 std::string NearTarget(const ir::Module& module, const ir::analysis::LabelTable& labels, const ir::Target& target,
                        BlockId from) {
   std::vector<std::string> names;
   for (const BlockId id : labels.Targets()) {
     const ir::Block& block = module.blocks[id];
-    if (id == from) continue;
-    if (target.kind == TargetKind::kLabel && block.label.Valid()) names.emplace_back(module.View(block.label));
-    const bool main = (block.flags & ir::Block::kMainBlock) != 0;
-    if (target.kind != TargetKind::kLabel && block.number != ir::Block::kNoNumber &&
-        main == (target.kind == TargetKind::kMainNumber))
-      names.push_back(fmt::format("{}{}", main ? ":" : "N", block.number));
+    if (id != from && block.label.Valid()) names.emplace_back(module.View(block.label));
   }
+  // Another number is no slip, and of a short name every other is near.
+  const std::string name = TargetText(module, target);
+  if (target.kind != TargetKind::kLabel || name.size() < 3) return {};
   const std::vector<std::string_view> views(names.begin(), names.end());
-  return std::string(NearName(TargetText(module, target), views));
+  return std::string(NearName(name, views));
 }
 
 bool CallsUnknown(const Subject& subject, ir::ProgramId program, std::string_view name) {

@@ -25,6 +25,7 @@ constexpr Row kRows[] = {
     {Language::kFanuc, Code::kUnknownCode, "Fanuc alarm PS0010", "fanuc-11#7"},
     {Language::kFanuc, Code::kMissingFeed, "Fanuc alarm PS0011", "fanuc-11#8"},
     {Language::kFanuc, Code::kArcRadius, "Fanuc alarm PS0020", "fanuc-11#10"},
+    {Language::kFanuc, Code::kArcIncomplete, "Fanuc alarm PS0022", "fanuc-11#12"},
     {Language::kFanuc, Code::kCompensationInArc, "Fanuc alarm PS0034", "fanuc-11#65"},
     {Language::kFanuc, Code::kUnknownProgram, "Fanuc alarm PS0076", "fanuc-11#17"},
     {Language::kFanuc, Code::kUnclosedStructure, "Fanuc alarm PS0124", "fanuc-11#32"},

@@ -39,7 +39,7 @@ std::string_view TitleOf(Language language) {
 std::string_view TestExampleOf(Language language) {
   switch (language) {
     case Language::kSinumerik:
-      return "test it first, for example a block IF {0}<=0, a block SETAL(65000), a block ENDIF";
+      return "test it first, for example a block IF {0}{1}0, a block SETAL(65000), a block ENDIF";
     case Language::kFanuc:
       return "test it first, for example IF[{0} EQ 0]THEN #3000=1";
     default:

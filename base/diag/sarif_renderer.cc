@@ -41,13 +41,24 @@ std::vector<Code> CodesOf(const Sink& sink) {
   return codes;
 }
 
+/// "Division by zero" of DivisionByZero.
+std::string TitleOf(std::string_view name) {
+  std::string title;
+  for (const char c : name) {
+    const bool capital = c >= 'A' && c <= 'Z';
+    if (capital && !title.empty()) title.push_back(' ');
+    title.push_back(capital && !title.empty() ? static_cast<char>(c - 'A' + 'a') : c);
+  }
+  return title;
+}
+
 Json Rules(const std::vector<Code>& codes) {
   Json rules = Json::array();
   for (const Code code : codes) {
     const Info& info = InfoOf(code);
     rules.push_back({{"id", info.number},
                      {"name", info.name},
-                     {"shortDescription", Text(info.text)},
+                     {"shortDescription", Text(TitleOf(info.name))},
                      {"defaultConfiguration", {{"level", LevelOf(info.severity)}}}});
   }
   return rules;

@@ -130,6 +130,14 @@ class Hints {
     }
     const std::string_view near = word.size() < 3 ? std::string_view() : NearName(word, names);
     if (near.empty()) return false;
+    // The word itself, where it cannot stand: the condition in front of it is still open.
+    if (IsWord(word, near)) {
+      const std::size_t open = line_.substr(0, begin).rfind('[');
+      if (open == std::string_view::npos || line_.substr(open, begin - open).find(']') != std::string_view::npos)
+        return false;
+      error_ = {.code = Code::kUnclosedBracket, .begin = static_cast<std::uint32_t>(open), .length = 1};
+      return Say("] is missing before {}", near);
+    }
     error_.begin = static_cast<std::uint32_t>(begin);
     error_.length = static_cast<std::uint32_t>(end - begin);
     return Say("did you mean {}?", near);

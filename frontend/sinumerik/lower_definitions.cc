@@ -178,7 +178,9 @@ bool Lowering::DoDefinition(const Action& action) {
       definition_.string_length = 0;
       ClearDimensions();
       if (action.arg != 0 && !LiteralInt(Pop(), kMaxText, definition_.string_length)) {
-        return Fail(Code::kOutOfRange, token, "write a constant up to 200", "the lengths of STRING");
+        const bool number = action.first + 2U < tokens_.size();  // STRING [ 300
+        return Fail(Code::kOutOfRange, number ? At(action.first + 2U) : token, "write a constant up to 200",
+                    "the lengths of STRING");
       }
       return true;
     case Step::kDimension: {

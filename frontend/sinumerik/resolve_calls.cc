@@ -109,7 +109,7 @@ bool Resolver::Call(ir::Word& word) {
     if (!call.program.Valid() && refused_names_.contains(UpperOf(module_.View(call.name)))) return true;
     if (!call.program.Valid() && missing_programs_.insert(std::string(module_.View(call.name))).second) {
       // The block stays: a run that gets there ends in the alarm of the control.
-      UnknownProgram(module_.View(call.name), module_.RangeOf(module_.blocks[block_], word));
+      UnknownProgram(module_.View(call.name), module_.RangeOf(module_.blocks[block_], word), !call.args.Empty());
     }
   }
   const bool in_own_program = !call.program.Valid() && !call.name_expr.Valid();
@@ -279,7 +279,7 @@ void Resolver::WantExtern(const ir::Call& call, const ir::Word& word) {
   finding.help = "programs of this folder are known to the control by EXTERN only";
 }
 
-void Resolver::UnknownProgram(std::string_view name, const SourceRange& at) {
+void Resolver::UnknownProgram(std::string_view name, const SourceRange& at, bool with_arguments) {
   if (dialects::sinumerik::IsReserved(UpperOf(name))) {
     SourceRange word = at;
     word.end = word.begin + static_cast<std::uint32_t>(name.size());
@@ -316,7 +316,7 @@ void Resolver::UnknownProgram(std::string_view name, const SourceRange& at) {
     }
     return jump;
   };
-  const std::string_view near = NearName(name, known);
+  const std::string_view near = name.size() < 3 ? std::string_view{} : NearName(name, known);
   if (!near.empty()) {
     finding.help = "did you mean " + std::string(near) + "?";
   } else if (jump_names_.contains(UpperOf(name))) {
@@ -331,7 +331,9 @@ void Resolver::UnknownProgram(std::string_view name, const SourceRange& at) {
     finding.help = "a blank is missing: " + split;
   } else if (name.size() > 5 && IsWord(name.substr(0, 5), "MCALL") && is_known(name.substr(5))) {
     finding.help = "a blank is missing: MCALL " + std::string(name.substr(5));
-  } else if (const std::string_view word = NearStatementWord(name); !word.empty()) {
+  } else if (const std::string_view word =
+                 with_arguments || name.size() < 3 ? std::string_view{} : NearStatementWord(name);
+             !word.empty()) {
     finding.help = "did you mean " + std::string(word) + "?";
   } else {
     finding.help = "give its file too, or name its folder with -I";

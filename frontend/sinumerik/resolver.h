@@ -63,7 +63,8 @@ class Resolver {
   // Calls (resolve_calls.cc).
   bool Call(ir::Word& word);
   bool Arguments(const ir::Call& call, const ir::Word& word);
-  void UnknownProgram(std::string_view name, const SourceRange& at);
+  /// `with_arguments`: the call has some, so that only a program or cycle can be meant.
+  void UnknownProgram(std::string_view name, const SourceRange& at, bool with_arguments);
   bool DeclaredArguments(const ir::Call& call, const ir::Word& word);
   bool Argument(ir::Arg& arg, ir::VariableId parameter);
   /// Card 7.2: Code::kMissingExtern, once for each program that is called.

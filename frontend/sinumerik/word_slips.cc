@@ -73,12 +73,12 @@ constexpr ForeignCode kForeignCodes[] = {
      "there is no G99: the plane of the retract is the first argument of a drilling cycle, the feed per turn G95"},
 };
 
-/// Words that begin or hold together a block.
+/// Words that begin or hold together a block. None that switches offsets off: a guess would move the machine elsewhere.
 constexpr std::string_view kStatementWords[] = {
-    "DEF",    "DEFINE", "PROC",    "EXTERN", "IF",     "ELSE",  "ENDIF",  "WHILE",   "ENDWHILE", "FOR",
-    "ENDFOR", "LOOP",   "ENDLOOP", "UNTIL",  "REPEAT", "GOTOF", "GOTOB",  "GOTO",    "GOTOC",    "CASE",
-    "MSG",    "SETAL",  "MCALL",   "CALL",   "RET",    "TRANS", "ATRANS", "MIRROR",  "ROT",      "AROT",
-    "SCALE",  "SPOS",   "LIMS",    "SUPA",   "STOPRE", "PCALL", "ASCALE", "AMIRROR",
+    "DEF",    "DEFINE", "PROC",    "EXTERN", "IF",     "ELSE",   "ENDIF",   "WHILE",  "ENDWHILE", "FOR",
+    "ENDFOR", "LOOP",   "ENDLOOP", "UNTIL",  "REPEAT", "GOTOF",  "GOTOB",   "GOTO",   "GOTOC",    "CASE",
+    "MSG",    "SETAL",  "MCALL",   "CALL",   "RET",    "TRANS",  "ATRANS",  "MIRROR", "ROT",      "AROT",
+    "SCALE",  "SPOS",   "LIMS",    "STOPRE", "PCALL",  "ASCALE", "AMIRROR",
 };
 
 constexpr std::string_view kInnerWords[] = {

@@ -22,8 +22,6 @@
 namespace ncport {
 namespace {
 
-constexpr std::string_view kIgnoreMark = "ncport: ignore";
-
 /// Codes that `list` names and that no diagnostic begins with are wrong usage (contracts section 2).
 Status KnownCodes(const std::vector<std::string>& list, std::string_view option, diag::Sink& sink) {
   Status ok;
@@ -51,40 +49,62 @@ bool MatchesAny(std::string_view number, const std::vector<std::string>& codes) 
 
 /// One `ncport: ignore NC3001` of a comment.
 struct Ignore {
-  SourceRange at;  // the whole block
-  std::string code;
+  SourceRange at;    // the whole block
+  std::string code;  // empty: none is named
   bool used = false;
 };
 
 /// All ignores by (file, line). A comment line silences the block below it, a comment in a block its own.
 using Ignores = std::multimap<std::pair<std::uint32_t, std::uint32_t>, Ignore>;
 
-/// Where the mark begins in `text`, in any case: some controls have capital letters only. npos: nowhere.
-std::size_t FindMark(std::string_view text) {
-  const auto same = [](char a, char b) { return Lower(a) == b; };
-  const auto found = std::search(text.begin(), text.end(), kIgnoreMark.begin(), kIgnoreMark.end(), same);
-  return found == text.end() ? std::string_view::npos : static_cast<std::size_t>(found - text.begin());
+/// Where the mark stands in `text`, in any case (some controls have capital letters only) and with any blanks around
+/// its colon.
+struct Mark {
+  std::size_t begin = std::string_view::npos;  // nowhere
+  std::size_t end = 0;
+};
+
+Mark FindMark(std::string_view text) {
+  constexpr std::string_view kParts[] = {"ncport", ":", "ignore"};
+  for (std::size_t begin = 0; begin < text.size(); ++begin) {
+    std::size_t at = begin;
+    bool found = true;
+    for (const std::string_view part : kParts) {
+      while (at > begin && at < text.size() && (text[at] == ' ' || text[at] == '\t')) ++at;
+      found =
+          found && at + part.size() <= text.size() &&
+          std::equal(part.begin(), part.end(), text.substr(at).begin(), [](char a, char b) { return a == Lower(b); });
+      at += part.size();
+      if (!found) break;
+    }
+    if (found) return {begin, at};
+  }
+  return {};
 }
 
 void AddCodes(std::string_view text, SourceRange comment, std::string_view line, const SourceRange& silenced,
               Ignores& ignores) {
-  const std::size_t at = FindMark(text);
-  if (at == std::string_view::npos) return;
-  if (const std::size_t begin = FindMark(line); begin != std::string_view::npos) {
-    comment.begin = static_cast<std::uint32_t>(begin);
-    comment.end = static_cast<std::uint32_t>(begin + kIgnoreMark.size());
+  const Mark mark = FindMark(text);
+  if (mark.begin == std::string_view::npos) return;
+  if (const Mark there = FindMark(line); there.begin != std::string_view::npos) {
+    comment.begin = static_cast<std::uint32_t>(there.begin);
+    comment.end = static_cast<std::uint32_t>(there.end);
   }
-  std::string_view rest = text.substr(at + kIgnoreMark.size());
-  while (!rest.empty()) {
-    const std::size_t begin = rest.find_first_not_of(" ,)");
+  std::string_view rest = text.substr(mark.end);
+  bool any = false;
+  for (;;) {
+    const std::size_t begin = rest.find_first_not_of(" \t,)");
     if (begin == std::string_view::npos) break;
     rest.remove_prefix(begin);
-    const std::size_t end = rest.find_first_of(" ,)");
-    const std::string_view code = rest.substr(0, end);
+    const std::size_t end = std::min(rest.find_first_of(" \t,)"), rest.size());
+    std::string code(rest.substr(0, end));
+    for (char& c : code) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
     if (!code.starts_with("NC")) break;
-    ignores.emplace(std::pair{silenced.file.value, silenced.line}, Ignore{comment, std::string(code), false});
-    rest = end == std::string_view::npos ? std::string_view{} : rest.substr(end);
+    ignores.emplace(std::pair{silenced.file.value, silenced.line}, Ignore{comment, std::move(code), false});
+    any = true;
+    rest.remove_prefix(end);
   }
+  if (!any) ignores.emplace(std::pair{silenced.file.value, silenced.line}, Ignore{comment, {}, false});
 }
 
 Ignores CollectIgnores(const SourceFiles& files, const ir::Module& module) {
@@ -112,8 +132,8 @@ Ignores CollectIgnores(const SourceFiles& files, const ir::Module& module) {
   return ignores;
 }
 
-/// One wrong block gives one finding: its first error, and no warnings beside an error. What the options leave out
-/// still counts, so that the findings of a block do not depend on them.
+/// One wrong block gives one finding: its first error, and no warnings beside an error but for ignores without effect.
+/// What the options leave out still counts, so that the findings of a block do not depend on them.
 void OneABlock(diag::Sink& findings) {
   using Line = std::pair<std::uint32_t, std::uint32_t>;
   const auto line_of = [](const diag::Diagnostic& finding) { return Line{finding.at.file.value, finding.at.line}; };
@@ -123,7 +143,7 @@ void OneABlock(diag::Sink& findings) {
       errors.try_emplace(line_of(finding), &finding);
   }
   findings.Remove([&](const diag::Diagnostic& finding) {
-    if (!finding.at.Valid()) return false;
+    if (!finding.at.Valid() || finding.code == diag::Code::kUselessIgnore) return false;
     const auto error = errors.find(line_of(finding));
     return error != errors.end() && error->second != &finding;
   });
@@ -209,7 +229,7 @@ Status Check(Context& context, std::vector<Input> inputs, const CheckOptions& op
   for (const auto& [place, ignore] : ignores) {
     if (!ignore.used)
       context.findings.Report(diag::Code::kUselessIgnore, ignore.at).help =
-          "take " + ignore.code + " out of the comment";
+          ignore.code.empty() ? "name the code: ncport: ignore NC3001" : "take " + ignore.code + " out of the comment";
   }
 
   OneABlock(context.findings);

@@ -2,6 +2,7 @@
 
 #include "check/motion_words.h"
 #include "check/rules.h"
+#include "dialects/finding_alarms.h"
 
 namespace ncport::check {
 namespace {
@@ -115,8 +116,9 @@ void CheckArcWords(const Subject& subject, ir::ProgramId program, diag::Sink& si
                   kCenterLetters.substr(words.center_outside->index, 1))
           .help = fmt::format("the centre of an arc lies in the active plane, {}", kPlanes[normal]);
     } else if (!words.describes_arc && words.axis_in_plane != nullptr) {
-      sink.Report(diag::Code::kArcIncomplete, subject.PlaceOf(id, *moving)).help =
-          "write the centre or the radius; a straight line needs its own motion word";
+      diag::Diagnostic& finding = sink.Report(diag::Code::kArcIncomplete, subject.PlaceOf(id, *moving));
+      finding.help = "write the centre or the radius; a straight line needs its own motion word";
+      finding.control = dialects::AlarmFor(subject.profile, finding.code);
     }
   }
 }

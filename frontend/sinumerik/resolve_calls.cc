@@ -107,6 +107,8 @@ bool Resolver::Call(ir::Word& word) {
     if (!call.program.Valid() && !DeclaredArguments(call, word)) return false;
     // A macro whose DEFINE was not understood has its finding.
     if (!call.program.Valid() && refused_names_.contains(UpperOf(module_.View(call.name)))) return true;
+    // So has a PROC line that was not: the file may have another name.
+    if (!call.program.Valid() && IsInRefusedHeader(module_.View(call.name))) return true;
     if (!call.program.Valid() && missing_programs_.insert(std::string(module_.View(call.name))).second) {
       // The block stays: a run that gets there ends in the alarm of the control.
       UnknownProgram(module_.View(call.name), module_.RangeOf(module_.blocks[block_], word), !call.args.Empty());
@@ -116,6 +118,24 @@ bool Resolver::Call(ir::Word& word) {
   if (!Target(call.from, in_own_program) || !Target(call.to, in_own_program)) return false;
   module_.calls[id] = call;
   return Arguments(call, word);
+}
+
+bool Resolver::IsInRefusedHeader(std::string_view name) const {
+  for (const ir::ProgramId program : module_.programs.Ids()) {
+    if (module_.programs[program].library || !HeaderRefused(program)) continue;
+    for (const ir::BlockId id : module_.programs[program].blocks) {
+      const ir::Block& block = module_.blocks[id];
+      if ((block.flags & ir::Block::kRefused) == 0 || block.words.Empty()) continue;
+      const ir::Word& word = module_.words[block.words[0]];
+      if (word.op != ir::WordOp::kVerbatim) continue;
+      std::string_view text = module_.View(word.Extra<StringId>());
+      if (text.size() <= 4 || !IsWord(text.substr(0, 4), "PROC")) break;
+      text.remove_prefix(std::min(text.find_first_not_of(" \t", 4), text.size()));
+      if (IsWord(text.substr(0, text.find_first_of(" \t(;")), UpperOf(name))) return true;
+      break;
+    }
+  }
+  return false;
 }
 
 bool Resolver::HeaderRefused(ir::ProgramId program) const {
@@ -358,8 +378,12 @@ bool Resolver::DeclaredArguments(const ir::Call& call, const ir::Word& word) {
   }
   for (const ir::ArgId id : call.args) {
     const ir::ExternParam& parameter = module_.extern_params[record.first_param + module_.args[id].position];
-    if (!module_.args[id].value.Valid() || parameter.by_reference || parameter.dimension_count != 0) continue;
+    if (!module_.args[id].value.Valid()) continue;
     ExprId value = module_.args[id].value;
+    if (parameter.by_reference || parameter.dimension_count != 0) {
+      if (!Reference(value, parameter.type, parameter.dimension_count)) return false;
+      continue;
+    }
     if (!Converted(value, parameter.type)) return false;
     module_.args[id].value = value;
   }
@@ -367,12 +391,16 @@ bool Resolver::DeclaredArguments(const ir::Call& call, const ir::Word& word) {
 }
 
 bool Resolver::Argument(ir::Arg& arg, ir::VariableId parameter_id) {
-  const ir::Variable parameter = module_.variables[parameter_id];
+  const ir::Variable& parameter = module_.variables[parameter_id];
   if (!parameter.by_reference && parameter.dimension_count == 0) return Converted(arg.value, parameter.type);
-  // By reference: a variable of the same type; arrays of the same number of dimensions.
-  if (!Expr(arg.value)) return false;
-  const ir::Expr& value = module_.exprs[arg.value];
-  const std::string wanted = "a variable of type " + std::string(TypeText(parameter.type));
+  return Reference(arg.value, parameter.type, parameter.dimension_count);
+}
+
+// By reference: a variable of the same type; arrays of the same number of dimensions.
+bool Resolver::Reference(ExprId id, Type type, std::uint8_t dimension_count) {
+  if (!Expr(id)) return false;
+  const ir::Expr& value = module_.exprs[id];
+  const std::string wanted = "a variable of type " + std::string(TypeText(type));
   switch (value.op) {
     case ExprOp::kVariable:
     case ExprOp::kElement:
@@ -380,15 +408,14 @@ bool Resolver::Argument(ir::Arg& arg, ir::VariableId parameter_id) {
     case ExprOp::kCellAt:
       break;
     default:
-      return Mismatch(arg.value, "a value", wanted);
+      return Mismatch(id, "a value", wanted);
   }
-  if (value.type != parameter.type && value.type != Type::kAny)
-    return Mismatch(arg.value, TypeText(value.type), wanted);
+  if (value.type != type && value.type != Type::kAny) return Mismatch(id, TypeText(value.type), wanted);
   const std::uint8_t dimensions =
       value.op == ExprOp::kVariable ? module_.variables[ir::VariableId{std::size_t{value.a}}].dimension_count : 0;
-  if (dimensions != parameter.dimension_count) {
-    return Mismatch(arg.value, dimensions == 0 ? "one value" : "an array",
-                    parameter.dimension_count == 0 ? "one value" : "an array with as many dimensions");
+  if (dimensions != dimension_count) {
+    return Mismatch(id, dimensions == 0 ? "one value" : "an array",
+                    dimension_count == 0 ? "one value" : "an array with as many dimensions");
   }
   return true;
 }

@@ -67,6 +67,7 @@ class Resolver {
   void UnknownProgram(std::string_view name, const SourceRange& at, bool with_arguments);
   bool DeclaredArguments(const ir::Call& call, const ir::Word& word);
   bool Argument(ir::Arg& arg, ir::VariableId parameter);
+  bool Reference(ir::ExprId id, ir::Type type, std::uint8_t dimension_count);
   /// Card 7.2: Code::kMissingExtern, once for each program that is called.
   void WantExtern(const ir::Call& call, const ir::Word& word);
   /// True if the folder of the program (`;$PATH=` in front of it, else that of its file) is one of part programs,
@@ -74,6 +75,8 @@ class Resolver {
   [[nodiscard]] bool InPlainFolder(ir::ProgramId program) const;
   /// True if the PROC of a program was not understood, so that what it takes is not known.
   [[nodiscard]] bool HeaderRefused(ir::ProgramId program) const;
+  /// A PROC line that was not understood begins with this name.
+  [[nodiscard]] bool IsInRefusedHeader(std::string_view name) const;
   /// Says for which parameter the value is, where there is one.
   void TellParameter(diag::Diagnostic& finding) const;
   using CycleParameters = dialects::sinumerik::CycleParameters;

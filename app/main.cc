@@ -113,10 +113,14 @@ int Main(int argc, char** argv) {
       ->check(CLI::IsMember({"text", "json", "sarif", "github"}));
   command->add_option("--fail-on", check.fail_on, "what gives exit code 1")
       ->check(CLI::IsMember({"error", "warning", "never"}));
-  command->add_option("--select", check.select, "only these codes, or codes that begin so")
+  command->add_option("--select", check.select, "only these codes, or codes that begin so: NC3001,NC4")
       ->delimiter(',')
+      ->type_name("CODES")
       ->allow_extra_args(false);
-  command->add_option("--ignore", check.ignore, "not these codes")->delimiter(',')->allow_extra_args(false);
+  command->add_option("--ignore", check.ignore, "not these codes")
+      ->delimiter(',')
+      ->type_name("CODES")
+      ->allow_extra_args(false);
   command->add_option("--for", check.target, "find also what cannot be written for this profile")->type_name("PROFILE");
   command->add_flag("--fix", check.fix, "do the repairs that findings offer, in the files");
   command->add_option("--baseline", check.baseline, "leave out the findings that this file lists")->type_name("FILE");

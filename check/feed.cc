@@ -55,7 +55,7 @@ class Feed final : public ValueRule {
                       input_.module.RangeOf(input_.module.blocks[id], *needed.word));
     if (std::string note = NoteOf(needed); !note.empty()) finding.notes.push_back({{}, std::move(note)});
     if ((state.ways & ~FeedState::kZero) == 0) {
-      finding.help = "F0 is no feed";
+      finding.help = "F0 is no feed: write F above 0";
     } else if ((state.ways & ~FeedState::kChanged) == 0) {
       const bool minutes = sources_.modal->At(program, id).feed_mode == ir::FeedMode::kPerMinute;
       finding.notes.push_back({{},

@@ -8,10 +8,10 @@ namespace ncport::frontend::sinumerik {
 void SyntaxHints::Run() {
   // Each looks for one kind of slip; the first that fits has the word.
   (void)(GroupIndex() || TornNumber() || LettersInNumber() || LettersBehindSign() || JumpWithoutBlank() ||
-         RunTogether() || NewName() || TornName() || MissingType() || ForeignOperator() || Dwell() || Incomplete() ||
-         ForeignSign() || Comparison() || NoFunction() || NoBrackets() || LooseCell() || NoOperator() || Closer() ||
-         Gap() || SecondSign() || MissingValue() || ForeignName() || TornWord() || ColonOfLabel() || Statement() ||
-         InnerWord() || CommentMark());
+         RunTogether() || Head() || NewName() || TornName() || MissingType() || ForeignOperator() || Dwell() ||
+         Incomplete() || ForeignSign() || Comparison() || NoFunction() || NoBrackets() || LooseCell() || NoOperator() ||
+         Closer() || Gap() || SecondSign() || MissingValue() || ForeignName() || TornWord() || ColonOfLabel() ||
+         Statement() || InnerWord() || CommentMark());
   if (!help_.empty()) error_.help = help_.c_str();
 }
 

@@ -49,12 +49,19 @@ std::string_view Article(Type type) {
 
 }  // namespace
 
+namespace {
+
+constexpr const char* kAddressHelp =
+    "an address holds no value to read: the programmed position of an axis is $P_EP[X], the real one $AA_IM[X] and "
+    "$AA_IW[X]";
+
+}  // namespace
+
 bool Resolver::Mismatch(ExprId id, std::string_view what, std::string_view needed, std::string_view help) {
   diag::Diagnostic& finding =
       sink_.Report(Code::kTypeMismatch, module_.RangeOf(module_.blocks[block_], id), what, needed);
   finding.help = help;
-  if (help.empty() && module_.exprs[id].op == ExprOp::kAxisName)
-    finding.help = "an address holds no value to read: the programmed position of an axis is $P_EP[X]";
+  if (help.empty() && module_.exprs[id].op == ExprOp::kAxisName) finding.help = kAddressHelp;
   TellParameter(finding);
   return false;
 }
@@ -346,6 +353,7 @@ bool Resolver::Fits(ExprId& id, Type type) {
     diag::Diagnostic& finding =
         sink_.Report(Code::kTypeMismatch, module_.RangeOf(module_.blocks[block_], id), Article(from), Article(type));
     if (type == Type::kString && numeric && !parameter_.Valid()) finding.help = "write << in front of it";
+    if (from == Type::kAxis && module_.exprs[id].op == ExprOp::kAxisName) finding.help = kAddressHelp;
     TellParameter(finding);
     return false;
   }

@@ -83,6 +83,12 @@ class SyntaxHints {
   bool Comparison();
   bool Closer();
 
+  // heads of blocks
+  bool Head();
+  bool Conditional();
+  /// Brackets that are open at the error.
+  [[nodiscard]] std::size_t OpenBrackets() const;
+
   // missing parts
   bool Incomplete();
   bool NoFunction();

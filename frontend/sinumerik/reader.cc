@@ -246,6 +246,11 @@ class Reader {
     if (recipe.failed) {
       error_ = ErrorOf(recipe.error, tokens);
       if (ExplainNewName(tokens, text, error_, help_)) return &error_;
+      if (IsOldCall(tokens, recipe.error.token)) {
+        error_.code = Code::kNotSupported;
+        error_.help = "a call of old cycles behind its R parameters: give it a block of its own";
+        return &error_;
+      }
       if (error_.help == nullptr || error_.code == Code::kNotAlone) {
         ExplainSyntax(tokens, recipe.error.token, text, error_, help_);
       }
@@ -263,6 +268,22 @@ class Reader {
     }
     if (state_.definitions_open && !lowering_.OnlyDefinitions()) CloseDefinitions(block);
     return nullptr;
+  }
+
+  /// `R01=1 R02=0. L903`: the row in which old programs hand a cycle its values, which their controls run.
+  [[nodiscard]] static bool IsOldCall(std::span<const Token> tokens, std::size_t call) {
+    const auto kind = [&](std::size_t token) { return static_cast<K>(tokens[token].kind); };
+    if (call + 1 != tokens.size() || kind(call) != K::kSubName) return false;
+    std::size_t at = 0;
+    if (kind(at) == K::kBlockNumber) ++at;
+    if (at == call) return false;
+    while (at < call) {
+      if (at + 2 >= call || kind(at) != K::kCell || kind(at + 1) != K::kEquals) return false;
+      at += 2;
+      if (kind(at) == K::kMinus && at + 1 < call) ++at;
+      if (kind(at++) != K::kNumber) return false;
+    }
+    return true;
   }
 
   /// G5 I1 J1 K1 and the frames of the smallest control (card 11).

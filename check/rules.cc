@@ -21,6 +21,7 @@ void CheckPrograms(const Subject& subject, diag::Sink& sink) {
     CheckModalCalls(subject, program, sink);
   }
   CheckUnusedNames(subject, sink);
+  CheckDoublePrograms(subject, sink);
   CheckSharedNames(subject, sink);
   CheckExterns(subject, sink);
   CheckRecursion(subject, sink);

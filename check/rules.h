@@ -53,6 +53,8 @@ void CheckUnsetValues(const Subject& subject, ir::ProgramId program, diag::Sink&
 
 /// NC2007: variables and parameters that no block uses.
 void CheckUnusedNames(const Subject& subject, diag::Sink& sink);
+/// NC2002: two programs of one name.
+void CheckDoublePrograms(const Subject& subject, diag::Sink& sink);
 /// NC2014: a variable and a label or program of one name.
 void CheckSharedNames(const Subject& subject, diag::Sink& sink);
 /// NC2004, NC2011: declarations of called programs that do not fit them. NC4012: calls with arguments of a program that

@@ -18,7 +18,8 @@ void CheckDoublePrograms(const Subject& subject, diag::Sink& sink) {
     if (program.library || name.empty()) continue;
     const bool main = by_name && program.kind == ir::ProgramKind::kMain;
     const auto [known, added] = first.emplace(std::pair{subject.KeyOf(name), main}, id);
-    if (added) continue;
+    // An archive holds several folders.
+    if (added || (by_name && module.programs[known->second].file == program.file)) continue;
     const auto place = [&](ir::ProgramId of) {
       const ir::Program& record = module.programs[of];
       return SourceRange{record.file, record.header_line != 0 ? record.header_line : 1, 0, 0};

@@ -6,6 +6,8 @@ void CheckPrograms(const Subject& subject, diag::Sink& sink) {
   for (const ir::ProgramId program : subject.module.programs.Ids()) {
     if (subject.module.programs[program].library) continue;
     CheckLabels(subject, program, sink);
+    CheckConstantTargets(subject, program, sink);
+    CheckConstantTexts(subject, program, sink);
     CheckNameLengths(subject, program, sink);
     CheckDoubleLabels(subject, program, sink);
     CheckUnusedLabels(subject, program, sink);

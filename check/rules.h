@@ -15,6 +15,11 @@ void CheckPrograms(const Subject& subject, diag::Sink& sink);
 
 /// NC4001: a jump, a switch or a repeated part names a label that its search does not find.
 void CheckLabels(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
+/// NC4001, NC4002: the same for constants that a run looks for: GOTO -1, GOTOF "LB", M99 P, RET("LB"), M97 P, CALL
+/// "SUB". A return is looked for in the programs that call this one: an error where none of them holds it.
+void CheckConstantTargets(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
+/// NC2004: a constant text that is converted to a number and is none.
+void CheckConstantTexts(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
 /// NC2006: labels and program names that are longer than the control reads.
 void CheckNameLengths(const Subject& subject, ir::ProgramId program, diag::Sink& sink);
 /// NC2003: a jump names a label or block number that stands twice where it looks; the control takes one of them.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "exec/program_name.h"
 #include "exec/runner.h"
 #include "ir/ops/arithmetic.h"
 #include "ir/ops/text.h"
@@ -12,9 +13,6 @@ namespace ncport::exec {
 using ir::BlockId;
 namespace ops = ir::ops;
 
-namespace {
-
-/// The name in a path or with the marks of a file: "/_N_SPF_DIR/_N_SUB1_SPF" is SUB1 (sinumerik-1.1).
 std::string_view PlainName(std::string_view name) {
   const std::size_t slash = name.rfind('/');
   if (slash != std::string_view::npos) name.remove_prefix(slash + 1);
@@ -32,8 +30,6 @@ std::string_view PlainName(std::string_view name) {
   }
   return name;
 }
-
-}  // namespace
 
 const Runner::Level& Runner::CallLevel() const {
   for (auto level = levels_.rbegin(); level != levels_.rend(); ++level) {

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "check/expressions.h"
 #include "check/motion_words.h"
 #include "check/rules.h"
 #include "dialects/finding_alarms.h"
@@ -27,6 +28,24 @@ std::size_t NormalOf(ir::Plane plane) {
 }
 
 bool IsArc(ir::Motion motion) { return motion == ir::Motion::kArcCw || motion == ir::Motion::kArcCcw; }
+
+bool IsThread(ir::Motion motion) { return motion >= ir::Motion::kThread && motion <= ir::Motion::kTapOut; }
+
+/// The lead of a thread stands under I, J or K, where it is not F.
+void CheckLead(const Subject& subject, ir::BlockId id, const ir::Word& moving, diag::Sink& sink) {
+  if (subject.machine.thread_lead_from_feed) return;
+  const ir::Word* lead = nullptr;
+  for (const ir::WordId word_id : subject.module.blocks[id].words) {
+    const ir::Word& word = subject.module.words[word_id];
+    if (word.op == WordOp::kCenter) lead = &word;
+  }
+  if (lead != nullptr && LiteralValue(subject.module, lead->value) != 0.0) return;
+  // Without the word the run takes 0; a control may know the lead of the block before.
+  const diag::Severity severity = lead != nullptr ? diag::Severity::kError : diag::Severity::kWarning;
+  sink.ReportAs(severity, diag::Code::kOutOfRange, subject.PlaceOf(id, lead != nullptr ? *lead : moving), "0",
+                "the leads of a thread, none of them 0")
+      .help = "I, J or K is the lead, under the letter of the axis with the longer way";
+}
 
 /// What describes the path in one block.
 struct PathWords {
@@ -101,7 +120,9 @@ void CheckArcWords(const Subject& subject, ir::ProgramId program, diag::Sink& si
           .help = "radius and angle alone describe the point in the plane; only the third axis may stand beside them";
       continue;
     }
-    if (modes.motion == ir::Motion::kArcVia) {
+    if (IsThread(modes.motion)) {
+      CheckLead(subject, id, *moving, sink);
+    } else if (modes.motion == ir::Motion::kArcVia) {
       if (words.via) continue;
       sink.Report(diag::Code::kArcIncomplete, subject.PlaceOf(id, *moving)).help =
           "write the point that the arc goes through: without one it is the start point";

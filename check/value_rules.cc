@@ -71,6 +71,7 @@ ir::analysis::RangeStatistics CheckValues(const ir::Module& module, const ir::Ma
   rules.push_back(MakeArcs(input, findings, graphs, modal));
   rules.push_back(MakeWordValues(input, findings));
   rules.push_back(MakeFeed(input, findings, {module, machine, graphs, calls, &modal}));
+  rules.push_back(MakeCycleWords(input, findings, {module, machine, graphs, calls, &modal}));
   AllRules all(rules);
   ir::analysis::RangeOptions range_options;
   range_options.declared = options.declared;

@@ -31,10 +31,15 @@ std::unique_ptr<ValueRule> MakeArcs(const ValueRuleInput& input, ValueFindings& 
 /// NC2005: values that words cannot take: below 0, a feed or scale factor of 0, too many repetitions.
 std::unique_ptr<ValueRule> MakeWordValues(const ValueRuleInput& input, ValueFindings& findings);
 
-/// NC5002: a move, a cycle or a thread that needs a feed, where none is set or F0 was the last one: an error where that is
-/// so on every way, a warning where a way lacks it.
+/// NC5002: a move, a cycle or a thread that needs a feed, where none is set or F0 was the last one: an error where that
+/// is so on every way, a warning where a way lacks it.
 std::unique_ptr<ValueRule> MakeFeed(const ValueRuleInput& input, ValueFindings& findings,
                                     const ir::analysis::FlowSources& sources);
+
+/// NC5007: a hole without level or depth, pecks without a size, a reference move inside a cycle: an error where that is
+/// so on every way, a warning where it is on some.
+std::unique_ptr<ValueRule> MakeCycleWords(const ValueRuleInput& input, ValueFindings& findings,
+                                          const ir::analysis::FlowSources& sources);
 
 /// Reports what the rules find. Severity follows certainty: an error where every run that comes there alarms, a warning
 /// where the program lets such values through.

@@ -100,6 +100,9 @@ class WordValues final : public ValueRule {
         return Limit{.low = kHalf, .high = most, .range = "the passes of a call", .alarms = !literal};
       case WordOp::kRepeatPart:
         return Limit{.low = -kHalf, .high = most, .range = "the repetitions of a part", .alarms = !literal};
+      case WordOp::kCycleValue:
+        if (static_cast<ir::CycleField>(word.index) != ir::CycleField::kRepeats) return std::nullopt;
+        return Limit{.low = -kHalf, .high = most, .range = "the repetitions of a cycle"};
       case WordOp::kAxis:
         if (Scales(site.block)) return kFactor;
         if (ir::IsRotary(word.index) &&

@@ -87,7 +87,8 @@ bool Kinematics::LayerCenter(const BlockWork& work, std::uint8_t axis, double& c
     return true;
   }
   if (Unknown(channel_.modal.units == ir::Units::kUnknown, "the unit of lengths")) return false;
-  center = WordOf(work, axis, false) * LengthFactor();
+  center = work.axis[axis] * LengthFactor();
+  if ((work.scaled_axes & AxisBit(axis)) != 0) center *= Increment(false);
   // The words are coordinates of the program: what acts inside of this layer moves them too.
   if ((layers.mirrored & AxisBit(axis)) != 0) center = 2 * layers.mirror_at[axis] - center;
   if (work.frame == FrameOp::kRotateAbout && layers.scales && axis < 3) {
@@ -149,7 +150,9 @@ void Kinematics::ApplyLayer(const BlockWork& work) {
         if ((work.axes & AxisBit(axis)) == 0) continue;
         const bool rotary = ir::IsRotary(axis);
         if (!rotary && Unknown(channel_.modal.units == ir::Units::kUnknown, "the unit of lengths")) return;
-        double value = WordOf(work, axis, rotary) * (rotary ? 1 : LengthFactor());
+        // Not rounded: beside the rounding of the words behind it, a shift would have the error of two words.
+        double value = work.axis[axis] * (rotary ? 1 : LengthFactor());
+        if ((work.scaled_axes & AxisBit(axis)) != 0) value *= Increment(rotary);
         if (axis == machine.transverse_axis && machine.frame_shift_in_diameter &&
             TransverseInDiameter(ir::ValueMode::kAbsolute, false))
           value /= 2;

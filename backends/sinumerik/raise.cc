@@ -24,6 +24,7 @@
 #include "ir/transform/expand_cycles.h"
 #include "ir/transform/lower_vacant_values.h"
 #include "ir/transform/numbers_to_names.h"
+#include "ir/transform/polar_mode.h"
 #include "ir/transform/resolve_increments.h"
 #include "ir/transform/resolve_jumps.h"
 #include "ir/transform/rewrite_exprs.h"
@@ -325,6 +326,7 @@ bool Raise(const RaiseInput& input, Translation& out, diag::Sink& sink) {
   ok = empty.ok && ok;
   if (!ok) return false;
   TellTakenForGiven(input, empty, out);
+  if (!LowerPolarMode(module, machine, entry, sink)) return false;
   if (!MapFrames(input, out, sink)) return false;
   ExpandCyclesConfig cycles;
   cycles.sub_entry = entry;

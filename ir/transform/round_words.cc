@@ -26,7 +26,7 @@ class Pass {
         flow_(analyses_.Modal()) {}
 
   bool Run() {
-    everywhere_ = ReadsPositions() || HasArcToPoint();
+    everywhere_ = ReadsPositions() || HasArcToPoint() || HasPolarMode();
     pecks_ = HasPecks();
     changes_unit_ = ChangesUnit();
     for (const ProgramId program : module_.programs.Ids()) {
@@ -63,13 +63,18 @@ class Pass {
     return false;
   }
 
-  /// A shift and the words behind it would be wrong by half an increment each.
+  /// The words of a shift, or of what else moves the zero: they are taken as they are, as exec does.
   [[nodiscard]] bool MovesZero(BlockId block) const {
     for (const WordId word : module_.blocks[block].words) {
-      const WordOp op = module_.words[word].op;
-      if (op == WordOp::kFrame || op == WordOp::kPresetPosition) return true;
+      if (module_.words[word].op == WordOp::kFrame) return true;
     }
     return false;
+  }
+
+  /// An angle is rounded by another way than the radius makes of it.
+  [[nodiscard]] bool HasPolarMode() const {
+    return std::ranges::any_of(module_.words.All(),
+                               [](const Word& word) { return word.op == WordOp::kPolarMode && word.index != 0; });
   }
 
   /// How many pecks a hole has hangs on its exact depth.
@@ -104,7 +109,7 @@ class Pass {
         const bool coarse =
             changes_unit_ && !IsRotary(word.index) && state_.units != Units::kMm && state_.units != Units::kMmGeometry;
         const bool depth = pecks_ && (state_.plane == Plane::kUnknown || word.index == AxesOf(state_.plane).normal);
-        if (absolute && !everywhere_ && !coarse && !depth && !shifts_) break;
+        if (shifts_ || (absolute && !everywhere_ && !coarse && !depth)) break;
         const std::optional<double> step = StepOf(block, word);
         if (step) Round(word, *step);
         break;

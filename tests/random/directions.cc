@@ -51,7 +51,7 @@ constexpr std::string_view kBackWithoutTools = NCPORT_NO_FANUC NCPORT_NO_WAY_BAC
 // These are refused so often that they would hide what else happens: modal calls and repeated macro calls beside
 // subprograms that share locals, and changes of the spindle mode, which choose the feed's unit there (sinumerik-8.1).
 #define NCPORT_GENERATED \
-  "surface-speed=0,modal-call=0,passes=0,drilling-polar=2,drilling-by-hand=1,drilling-count=5,shifted-axes=3"
+  "surface-speed=0,modal-call=0,passes=0,drilling-polar=10,drilling-by-hand=1,drilling-count=5,shifted-axes=3"
 constexpr std::string_view kGenerated = NCPORT_GENERATED;
 // What a computed word is rounded to hangs on the unit: half of the programs have one only.
 constexpr std::string_view kGeneratedInOneUnit = NCPORT_GENERATED ",units=0";

@@ -80,19 +80,28 @@ void Maker::HoleData(ir::BlockBuilder& block, Holes& holes, bool named, bool all
   }
 }
 
-void Maker::HolePlace(ir::BlockBuilder& block, const Holes& holes, bool both) {
+void Maker::HolePlace(ir::BlockBuilder& block, Holes& holes, bool both) {
+  if (holes.polar) return PolarPlace(block, holes, both);
   const bool first = both || random_.Percent(70);
   for (const std::uint8_t axis : {holes.first, holes.second}) {
     if (!both && (axis == holes.first ? !first : first && random_.Percent(40))) continue;
-    if (!holes.polar) {
-      AxisWord(block, axis, true, 1);
-      continue;
-    }
-    moved_ |= static_cast<std::uint16_t>(1U << axis);
-    const double most = IsInch() ? 2 : 60;
-    block.Axis(axis,
-               (axis == holes.first ? NumberIn({most / 10, most, false}, 1) : NumberIn(BoundsOf(Range::kAngle), 1)).id);
+    AxisWord(block, axis, true, 1);
   }
+}
+
+// Radius and angle. What is left out stays, where the radius is a number: a computed one may be 0.
+void Maker::PolarPlace(ir::BlockBuilder& block, Holes& holes, bool both) {
+  both = both || !holes.radius_kept || random_.Percent(30);
+  const bool radius = both || random_.Percent(30);
+  const Interval lengths{IsInch() ? 0.2 : 6, IsInch() ? 2.0 : 60, false};
+  if (radius) {
+    holes.radius_kept = random_.Percent(80);
+    moved_ |= static_cast<std::uint16_t>(1U << holes.first);
+    block.Axis(holes.first, (holes.radius_kept ? Literal(lengths) : NumberIn(lengths, 1)).id);
+  }
+  if (!both && radius) return;
+  moved_ |= static_cast<std::uint16_t>(1U << holes.second);
+  block.Axis(holes.second, NumberIn(BoundsOf(Range::kAngle), 1).id);
 }
 
 // One hole: the first one and those of a new cycle name it.
@@ -170,7 +179,7 @@ void Maker::HoleLoop(Holes& holes) {
   ir::BlockBuilder block = NewBlock();
   const double pitch = IsInch() ? 0.5 : 9;
   for (const std::uint8_t axis : {holes.first, holes.second}) {
-    if (axis == holes.second && random_.Percent(60)) continue;
+    if (axis == holes.second && !holes.polar && random_.Percent(60)) continue;
     const Made now{CounterPlace(place), place.type, BoundsOf(Range::kCount)};
     const Made way =
         Operation(ir::ExprOp::kMultiply, now, Literal({1, pitch, false}), ir::Type::kReal, {0, pitch * 12, false});
@@ -179,6 +188,7 @@ void Maker::HoleLoop(Holes& holes) {
     moved_ |= static_cast<std::uint16_t>(1U << axis);
     block.Axis(axis, value.id);
   }
+  holes.radius_kept = false;
   if (random_.Percent(20)) HoleData(block, holes, false, false);
   Emit(block);
   if (random_.Percent(30)) Hole(holes, false, false);
@@ -301,6 +311,7 @@ void Maker::MakeDrilling() {
         over.known = known_;
         EmitJump(over, Truth(1), true);
         Hole(holes, false, false);
+        holes.radius_kept = false;
         PlaceLabel(over);
         break;
       }

@@ -233,13 +233,15 @@ class Maker {
     ir::ReturnLevel level = ir::ReturnLevel::kUnknown;
     bool step = false;  // Q is stored
     bool polar = false;
-    bool moved_zero = false;  // in another work offset than before
+    bool radius_kept = false;  // polar: a later block may leave out a word
+    bool moved_zero = false;   // in another work offset than before
   };
   void MakeDrilling();
   void MakeLocalShift();
   void CycleWord(ir::BlockBuilder& block, ir::CycleField field, ir::ExprId value, bool named);
   void HoleData(ir::BlockBuilder& block, Holes& holes, bool named, bool all);
-  void HolePlace(ir::BlockBuilder& block, const Holes& holes, bool both);
+  void HolePlace(ir::BlockBuilder& block, Holes& holes, bool both);
+  void PolarPlace(ir::BlockBuilder& block, Holes& holes, bool both);
   void Hole(Holes& holes, bool named, bool all);
   void HoleRow(Holes& holes);
   void HoleLoop(Holes& holes);

@@ -4,6 +4,8 @@
 #include "check/motion_words.h"
 #include "check/rules.h"
 #include "dialects/finding_alarms.h"
+#include "ir/motions.h"
+#include "ir/plane_axes.h"
 
 namespace ncport::check {
 namespace {
@@ -12,22 +14,6 @@ using ir::WordOp;
 
 constexpr std::string_view kAxisLetters = "XYZ";
 constexpr std::string_view kCenterLetters = "IJK";
-
-/// Axis that stands on the plane, 0 to 2; 3 = not known.
-std::size_t NormalOf(ir::Plane plane) {
-  switch (plane) {
-    case ir::Plane::kXY:
-      return 2;
-    case ir::Plane::kZX:
-      return 1;
-    case ir::Plane::kYZ:
-      return 0;
-    default:
-      return 3;
-  }
-}
-
-bool IsArc(ir::Motion motion) { return motion == ir::Motion::kArcCw || motion == ir::Motion::kArcCcw; }
 
 bool IsThread(ir::Motion motion) { return motion >= ir::Motion::kThread && motion <= ir::Motion::kTapOut; }
 
@@ -58,7 +44,7 @@ struct PathWords {
   bool other = false;          // a word that this does not judge
 };
 
-PathWords WordsOf(const ir::Module& module, const ir::Block& block, std::size_t normal) {
+PathWords WordsOf(const ir::Module& module, const ir::Block& block, std::uint8_t normal) {
   PathWords words;
   for (const ir::WordId id : block.words) {
     const ir::Word& word = module.words[id];
@@ -110,8 +96,8 @@ void CheckArcWords(const Subject& subject, ir::ProgramId program, diag::Sink& si
     const ir::Word* moving = MovingWord(module, block);
     if (moving == nullptr) continue;
     const ir::ModalState modes = subject.modal.At(program, id);
-    const std::size_t normal = NormalOf(modes.plane);
-    if (normal > 2) continue;
+    if (modes.plane == ir::Plane::kUnknown) continue;
+    const std::uint8_t normal = ir::AxesOf(modes.plane).normal;
     const PathWords words = WordsOf(module, block, normal);
     if (words.other) continue;
     if (words.polar != nullptr && words.axis_in_plane != nullptr) {
@@ -126,7 +112,7 @@ void CheckArcWords(const Subject& subject, ir::ProgramId program, diag::Sink& si
       if (words.via) continue;
       sink.Report(diag::Code::kArcIncomplete, subject.PlaceOf(id, *moving)).help =
           "write the point that the arc goes through: without one it is the start point";
-    } else if (!IsArc(modes.motion)) {
+    } else if (!ir::IsPlaneArc(modes.motion)) {
       const bool straight = modes.motion == ir::Motion::kLinear || modes.motion == ir::Motion::kRapid;
       if (!straight || words.radius == nullptr) continue;
       sink.ReportAs(diag::Severity::kWarning, diag::Code::kUnexpectedText, subject.PlaceOf(id, *words.radius),

@@ -14,6 +14,7 @@
 #include "check/value_rules.h"
 #include "exec/arc_geometry.h"
 #include "ir/length_units.h"
+#include "ir/motions.h"
 #include "ir/plane_axes.h"
 
 namespace ncport::check {
@@ -193,7 +194,7 @@ class Arcs final : public ValueRule {
     const Values start = at_;
     const std::array<bool, kAxes> doubtful = doubtful_;
     Move(block, modes, lookup);
-    const bool arc = modes.motion == ir::Motion::kArcCw || modes.motion == ir::Motion::kArcCcw;
+    const bool arc = ir::IsPlaneArc(modes.motion);
     if (arc) Arc(site, start, doubtful, modes, lookup);
     // A probe stands where it triggers, and a modal call moves on.
     const bool elsewhere =

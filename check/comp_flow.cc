@@ -1,8 +1,7 @@
 #include "check/comp_flow.h"
 
-#include <optional>
-
 #include "check/motion_words.h"
+#include "ir/plane_axes.h"
 
 namespace ncport::check {
 namespace {
@@ -10,20 +9,6 @@ namespace {
 using ir::CutterComp;
 using ir::Motion;
 using ir::WordOp;
-
-/// Axis that stands on the plane, 0 to 2; none: the plane is not known.
-std::optional<std::uint8_t> NormalOf(ir::Plane plane) {
-  switch (plane) {
-    case ir::Plane::kXY:
-      return 2;
-    case ir::Plane::kZX:
-      return 1;
-    case ir::Plane::kYZ:
-      return 0;
-    default:
-      return std::nullopt;
-  }
-}
 
 /// Moves to other places, a new tool, cycles: whether one of them begins the compensation is not known.
 bool MovesOtherwise(WordOp op) {
@@ -101,12 +86,12 @@ bool CompFlow::MovesInPlane(ir::ProgramId program, ir::BlockId id) const {
   const ir::ModalState modes = subject_.modal.At(program, id);
   if (ArcWord(module_, block, modes.motion) != nullptr) return true;
   if (!IsStraight(modes.motion) || MovingWord(module_, block) == nullptr) return false;
-  const std::optional<std::uint8_t> normal = NormalOf(modes.plane);
-  if (!normal) return false;
+  if (modes.plane == ir::Plane::kUnknown) return false;
+  const std::uint8_t normal = ir::AxesOf(modes.plane).normal;
   for (const ir::WordId word_id : block.words) {
     const ir::Word& word = module_.words[word_id];
     const bool polar = word.op == WordOp::kPolarRadius || word.op == WordOp::kPolarAngle;
-    if (polar || (word.op == WordOp::kAxis && word.index < 3 && word.index != *normal)) return true;
+    if (polar || (word.op == WordOp::kAxis && word.index < 3 && word.index != normal)) return true;
   }
   return false;
 }

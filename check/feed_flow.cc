@@ -4,6 +4,7 @@
 #include "check/motion_words.h"
 #include "ir/analysis/main_programs.h"
 #include "ir/block_words.h"
+#include "ir/motions.h"
 
 namespace ncport::check {
 
@@ -193,13 +194,13 @@ NeededFeed FeedFlow::OwnNeed(ProgramId program, BlockId id, const State& state) 
   if ((state.cycles & ~State::kNoCycle) != 0) return CycleNeed(block, state);
   const ir::ModalState modes = sources_.modal->At(program, id);
   if (modes.feed_mode == ir::FeedMode::kInverseTime) return {};
-  const ir::Word* moving = IsArcMotion(modes.motion) ? ArcWord(module_, block, modes.motion) : nullptr;
+  const ir::Word* moving = ir::IsArc(modes.motion) ? ArcWord(module_, block, modes.motion) : nullptr;
   if (moving == nullptr) moving = MovingWord(module_, block);
   if (moving == nullptr) return {};
   if (IsThread(modes.motion) && sources_.machine.thread_lead_from_feed)
     return {.need = FeedNeed::kLead, .word = moving};
   const bool by_feed =
-      IsFeedMotion(modes.motion) || modes.motion == Motion::kTapFloating || modes.motion == Motion::kProbe;
+      ir::IsFeedMotion(modes.motion) || modes.motion == Motion::kTapFloating || modes.motion == Motion::kProbe;
   if (!by_feed || ir::HasWord(module_, block, WordOp::kFeedOnce)) return {};
   return {.need = FeedNeed::kMove, .word = moving};
 }

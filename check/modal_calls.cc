@@ -7,6 +7,7 @@
 
 #include "check/expressions.h"
 #include "check/rules.h"
+#include "ir/plane_axes.h"
 
 namespace ncport::check {
 namespace {
@@ -15,20 +16,6 @@ using ir::BlockId;
 using ir::CallId;
 using ir::WordOp;
 using ModalCall = ir::analysis::ModalFlow::ModalCall;
-
-/// Axis that stands on the plane, 0 to 2; 3 = not known.
-std::uint8_t NormalOf(ir::Plane plane) {
-  switch (plane) {
-    case ir::Plane::kXY:
-      return 2;
-    case ir::Plane::kZX:
-      return 1;
-    case ir::Plane::kYZ:
-      return 0;
-    default:
-      return 3;
-  }
-}
 
 /// What a block means for a modal call that is in force.
 struct Meaning {
@@ -56,7 +43,7 @@ Meaning MeaningOf(const Subject& subject, const ir::Block& block, ir::Plane plan
         break;
       case WordOp::kAxis:
         axis = &word;
-        only_tool_axis = only_tool_axis && word.index == NormalOf(plane);
+        only_tool_axis = only_tool_axis && plane != ir::Plane::kUnknown && word.index == ir::AxesOf(plane).normal;
         break;
       case WordOp::kAxisComputed:
       case WordOp::kPolarAngle:

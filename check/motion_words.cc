@@ -3,24 +3,11 @@
 #include <optional>
 
 #include "check/expressions.h"
+#include "ir/motions.h"
 
 namespace ncport::check {
 
 using ir::WordOp;
-
-bool IsArcMotion(ir::Motion motion) {
-  switch (motion) {
-    case ir::Motion::kArcCw:
-    case ir::Motion::kArcCcw:
-    case ir::Motion::kArcVia:
-    case ir::Motion::kArcTangent:
-      return true;
-    default:
-      return false;
-  }
-}
-
-bool IsFeedMotion(ir::Motion motion) { return motion == ir::Motion::kLinear || IsArcMotion(motion); }
 
 bool MayDoAnything(const ir::Module& module, const ir::Word& word) {
   switch (word.op) {
@@ -87,7 +74,7 @@ const ir::Word* MovingWord(const ir::Module& module, const ir::Block& block) {
 }
 
 const ir::Word* ArcWord(const ir::Module& module, const ir::Block& block, ir::Motion motion) {
-  if (!IsArcMotion(motion)) return nullptr;
+  if (!ir::IsArc(motion)) return nullptr;
   const ir::Word* moving = MovingWord(module, block);
   if (moving != nullptr) return moving;
   for (const ir::WordId id : block.words) {

@@ -9,9 +9,6 @@ namespace ncport::check {
 /// the block name something else (a frame, a pole, a reference point, a dwell).
 const ir::Word* MovingWord(const ir::Module& module, const ir::Block& block);
 
-/// Modes that move on a circle.
-bool IsArcMotion(ir::Motion motion);
-
 /// The word of the block by which an arc is recognised, if the block moves on one under `motion`; else null. An arc
 /// without end point is a full circle, and has a centre.
 const ir::Word* ArcWord(const ir::Module& module, const ir::Block& block, ir::Motion motion);
@@ -19,8 +16,5 @@ const ir::Word* ArcWord(const ir::Module& module, const ir::Block& block, ir::Mo
 /// Words that may do anything: codes that are known only when the program runs, M functions of the builder (coolant is
 /// none of them), text that was not understood.
 bool MayDoAnything(const ir::Module& module, const ir::Word& word);
-
-/// Modes that cut with the feed; threads and tapping go with the spindle.
-bool IsFeedMotion(ir::Motion motion);
 
 }  // namespace ncport::check

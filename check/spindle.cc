@@ -3,6 +3,7 @@
 #include "check/rules.h"
 #include "ir/analysis/forward_flow.h"
 #include "ir/analysis/main_programs.h"
+#include "ir/motions.h"
 
 namespace ncport::check {
 namespace {
@@ -95,7 +96,7 @@ void CheckSpindle(const Subject& subject, diag::Sink& sink) {
       const ir::Block& block = module.blocks[id];
       if ((block.flags & ir::Block::kRefused) != 0 || !flow.Stands(id)) continue;
       const ir::Word* moving = MovingWord(module, block);
-      if (moving == nullptr || !IsFeedMotion(subject.modal.At(program, id).motion)) continue;
+      if (moving == nullptr || !ir::IsFeedMotion(subject.modal.At(program, id).motion)) continue;
       sink.Report(diag::Code::kSpindleOff, subject.PlaceOf(id, *moving)).help =
           "no block on the way here starts the spindle: write M3 or M4 before it";
       break;  // once a program: the next moves lack the same word

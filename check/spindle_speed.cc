@@ -8,6 +8,7 @@
 #include "check/rules.h"
 #include "ir/analysis/forward_flow.h"
 #include "ir/analysis/main_programs.h"
+#include "ir/motions.h"
 
 namespace ncport::check {
 namespace {
@@ -128,10 +129,6 @@ class SpindleFlow {
   const ir::Module& module_;
 };
 
-bool CutsMaterial(ir::Motion motion) {
-  return motion == ir::Motion::kLinear || motion == ir::Motion::kArcCw || motion == ir::Motion::kArcCcw;
-}
-
 /// A second spindle has words of its own, and which one cuts is not known.
 bool OneSpindle(const ir::Module& module) {
   return std::ranges::none_of(module.words.All(), [](const ir::Word& word) {
@@ -158,7 +155,7 @@ void CheckSpindleSpeed(const Subject& subject, diag::Sink& sink) {
       const SpindleFlowState* before = flow.Before(id);
       if (before == nullptr || (block.flags & ir::Block::kRefused) != 0) continue;
       const ir::Word* moving = MovingWord(module, block);
-      if (moving == nullptr || !CutsMaterial(subject.modal.At(program, id).motion)) continue;
+      if (moving == nullptr || !ir::IsFeedMotion(subject.modal.At(program, id).motion)) continue;
       SpindleFlowState at = *before;
       client.BeforeMotion(id, at);
       if (at.ways == kSpeedOnly && !stands) {

@@ -15,6 +15,7 @@
 #include "ir/builder.h"
 #include "ir/literal_value.h"
 #include "ir/make_word.h"
+#include "ir/motions.h"
 #include "ir/transform/program_editor.h"
 
 namespace ncport::backends::fanuc {
@@ -380,7 +381,7 @@ void Mapper::Rewrite(ProgramId program) {
           if (ok_)
             Refuse(at, "the length of a tool that is not one on every way here",
                    "move Z behind each tool change before the ways meet");
-        } else if (motion == ir::Motion::kArcCw || motion == ir::Motion::kArcCcw) {
+        } else if (ir::IsArc(motion)) {
           Refuse(at, "a tool length that comes into force in an arc", "move Z in a straight line before");
         } else if (now.edge == 1) {
           kept.push_back(made_word(WordOp::kLengthOffset, 0, std::nullopt));

@@ -11,6 +11,7 @@
 #include "ir/builder.h"
 #include "ir/length_units.h"
 #include "ir/make_word.h"
+#include "ir/motions.h"
 #include "ir/transform/frame_flow.h"
 #include "ir/transform/linear_form.h"
 #include "ir/transform/new_local.h"
@@ -156,8 +157,8 @@ bool RotationsAreNative(const RaiseInput& input, const Translation& out) {
         }
       }
       if (moves && MayTurn(before)) {
-        const bool straight = state.motion == ir::Motion::kRapid || state.motion == ir::Motion::kLinear ||
-                              state.motion == ir::Motion::kArcCw || state.motion == ir::Motion::kArcCcw;
+        const bool straight =
+            state.motion == ir::Motion::kRapid || state.motion == ir::Motion::kLinear || ir::IsPlaneArc(state.motion);
         if (!straight) return false;
       }
       needed = needed || (moves && before.kind == FrameState::Kind::kUnknown);

@@ -4,6 +4,7 @@
 
 #include "base/result.h"
 #include "frontend/fanuc/lower.h"
+#include "ir/motions.h"
 
 namespace ncport::frontend::fanuc {
 
@@ -68,7 +69,7 @@ bool Lowering::Scan(Context& context) {
       switch (meaning.code->op) {
         case WordOp::kMotion: {
           const auto motion = static_cast<ir::Motion>(meaning.code->index);
-          context.arc |= motion == ir::Motion::kArcCw || motion == ir::Motion::kArcCcw;
+          context.arc |= ir::IsPlaneArc(motion);
           context.thread |= motion == ir::Motion::kThread || motion == ir::Motion::kThreadIncreasing;
           break;
         }

@@ -324,7 +324,7 @@ bool DimensionPass::ApplyFrame(BlockId id, const Slots& in, std::vector<Word>& w
   if (frame.kind == FrameState::Kind::kUnknown)
     return Refuse(id, at, "a move under a frame that is not the same on every way that leads here",
                   "set the frame in the program that moves, and take it back before its end");
-  const bool arc = IsArc(motion) && (linear || center);
+  const bool arc = IsPlaneArc(motion) && (linear || center);
   const auto [first, second, normal] = AxesOf(state.plane);
   const std::optional<PlaneImage> image = ImageOf(frame.matrix, first, second);
   if (!frame.untouched) {

@@ -41,7 +41,7 @@ bool DimensionPass::LowerTurns(BlockId id, const Slots& in, std::vector<Word>& w
   const Word turns = *WordOf(id, WordOp::kTurns);
   const ModalState state = flow_.At(program_, id);
   const LinearForm form = FormOf(module_, turns.value);
-  if (!IsArc(state.motion) || state.plane == Plane::kUnknown || WordOf(id, WordOp::kCenter) == nullptr ||
+  if (!IsPlaneArc(state.motion) || state.plane == Plane::kUnknown || WordOf(id, WordOp::kCenter) == nullptr ||
       WordOf(id, WordOp::kRadius) != nullptr || WordOf(id, WordOp::kWhen) != nullptr)
     return Refuse(id, turns, "additional turns of an arc without centre words");
   if (!form.IsConstant() || form.constant < 0 || form.constant > kMostTurns)

@@ -190,7 +190,7 @@ std::optional<PlanePoint> DimensionPass::EndOfPlane(BlockId id, const Slots& in)
   const std::optional<PlanePoint> start = StartOfPlane(id, in);
   const std::optional<PlanePoint> center = CenterOfPlane(id, in);
   const Motion motion = flow_.At(program_, id).motion;
-  if (!angle.IsConstant() || !start || !center || !IsArc(motion)) return std::nullopt;
+  if (!angle.IsConstant() || !start || !center || !IsPlaneArc(motion)) return std::nullopt;
   if (angle.constant == 360) return start;
   const PlanePoint way = EndByOpening(module_, *center, angle.constant, motion == Motion::kArcCw);
   return PlanePoint{Sum(module_, start->u, way.u), Sum(module_, start->v, way.v)};
@@ -282,7 +282,7 @@ bool DimensionPass::LowerOpening(BlockId id, const Slots& in, std::vector<Word>&
   const PlaneWords& plane = PlaneAt(id);
   const Word opening = *WordOf(id, WordOp::kOpeningAngle);
   const Motion motion = flow_.At(program_, id).motion;
-  if (!IsArc(motion) || WordOf(id, WordOp::kRadius) != nullptr || WordOf(id, WordOp::kTurns) != nullptr)
+  if (!IsPlaneArc(motion) || WordOf(id, WordOp::kRadius) != nullptr || WordOf(id, WordOp::kTurns) != nullptr)
     return Refuse(id, opening, "an opening angle that is not the only word for the shape of an arc");
   const LinearForm angle = FormOf(module_, opening.value);
   if (!angle.IsConstant())

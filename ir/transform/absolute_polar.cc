@@ -34,7 +34,7 @@ bool DimensionPass::PolarAngleAdds(BlockId id) const {
 
 /// An arc to a polar end point without another word for its centre turns about the pole.
 bool DimensionPass::PoleIsCenter(BlockId id) const {
-  return PlaneAt(id).kind == Kind::kPolar && IsArc(flow_.At(program_, id).motion) &&
+  return PlaneAt(id).kind == Kind::kPolar && IsPlaneArc(flow_.At(program_, id).motion) &&
          WordOf(id, WordOp::kCenter) == nullptr && WordOf(id, WordOp::kRadius) == nullptr;
 }
 
@@ -102,7 +102,7 @@ bool DimensionPass::LowerPolar(BlockId id, const Slots& in, std::vector<Word>& w
   const Word* radius = WordOf(id, WordOp::kPolarRadius);
   const Word polar = radius != nullptr ? *radius : *WordOf(id, WordOp::kPolarAngle);
   const Motion motion = flow_.At(program_, id).motion;
-  if (motion != Motion::kRapid && motion != Motion::kLinear && !IsArc(motion))
+  if (motion != Motion::kRapid && motion != Motion::kLinear && !IsPlaneArc(motion))
     return Refuse(id, polar, "polar words of a motion that is neither straight nor an arc");
   if (WordOf(id, WordOp::kOpeningAngle) != nullptr || WordOf(id, WordOp::kTurns) != nullptr ||
       WordOf(id, WordOp::kMachineCoords) != nullptr)

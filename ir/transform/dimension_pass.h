@@ -14,6 +14,7 @@
 #include "ir/analysis/interval.h"
 #include "ir/analysis/number_kinds.h"
 #include "ir/builder.h"
+#include "ir/motions.h"
 #include "ir/transform/absolute_dimensions.h"
 #include "ir/transform/frame_flow.h"
 #include "ir/transform/linear_form.h"
@@ -79,8 +80,6 @@ struct PlaneWords {
   [[nodiscard]] bool Moves() const { return kind != Kind::kNone && kind != Kind::kPole; }
   [[nodiscard]] bool HasAxis(std::uint8_t axis) const { return axis == first || axis == second; }
 };
-
-constexpr bool IsArc(Motion motion) { return motion == Motion::kArcCw || motion == Motion::kArcCcw; }
 
 inline void DropWords(std::vector<Word>& words, WordOp op) {
   std::erase_if(words, [op](const Word& word) { return word.op == op; });

@@ -152,36 +152,22 @@ bool Runner::Call(ir::CallId id) {
   std::uint64_t given = 0;
   if (session_.halted || !Deeper() || !EvalArguments(call, program, given)) return true;
 
-  const ir::Program& callee = session_.module.programs[program];
-  std::uint32_t begin = callee.blocks.begin;
+  Level level = CalledLevel(LevelKind::kCall, program, passes);
   if (call.from_block) {
     std::string name;
     const BlockId first =
-        FindTarget(call.from, program, BlockId{std::size_t{begin}}, ir::Search::kForwardThenFromStart, name);
+        FindTarget(call.from, program, BlockId{std::size_t{level.begin}}, ir::Search::kForwardThenFromStart, name);
     if (session_.halted) return true;
     if (!first.Valid()) {
       session_.Alarm(ir::AlarmClass::kMissingTarget, fmt::format("block {} not found", name));
       return true;
     }
-    begin = first.value;
+    level.begin = first.value;
   }
   const std::uint32_t level_cells = call.new_level ? session_.linked.LevelCells() : 0;
   const bool again = passes > 1 && !session_.machine.passes_keep_locals;
-  Level level;
-  level.kind = LevelKind::kCall;
-  level.program = program;
-  level.begin = begin;
-  level.end = callee.blocks.begin + callee.blocks.count;
-  level.from = session_.block;
-  level.finish_block = (session_.linked.UseOf(session_.block) & kUseLast) != 0;
-  level.words_end = words_end_;
-  level.passes_left = passes - 1;
-  level.stack = memory_.Top();
   level.call = id.value;
-  level.facts = facts_;
-  level.facts.program = program;
   level.facts.given = given;
-  level.facts.depth = facts_.depth + 1;
   if (again) {
     level.arguments = memory_.Push(static_cast<std::uint32_t>(arguments_.size()));
     if (level.arguments != Memory::kNoRoom) {
@@ -197,13 +183,7 @@ bool Runner::Call(ir::CallId id) {
   level.facts.frame = cells + level_cells;
   InitFrame(program, level.facts.frame);
   PutArguments(call, program, level.facts.level, level.facts.frame);
-  if (callee.saves_modal_state) {
-    level.saved = static_cast<std::uint32_t>(saves_.size());
-    saves_.push_back({channel_.modal, channel_.frame});
-  }
-  pc_ = level.begin;
-  ++calls_;
-  Enter(level);
+  EnterCalled(level);
   return true;
 }
 
@@ -230,19 +210,9 @@ bool Runner::CallRange(const ir::Call& call, std::uint32_t passes) {
     session_.Alarm(ir::AlarmClass::kMissingTarget, fmt::format("block {} not found", name));
     return true;
   }
-  Level level;
-  level.kind = LevelKind::kRange;
-  level.program = program;
+  Level level = CalledLevel(LevelKind::kRange, program, passes);
   level.begin = first.value;
   level.end = last.value + 1;
-  level.from = session_.block;
-  level.finish_block = (session_.linked.UseOf(session_.block) & kUseLast) != 0;
-  level.words_end = words_end_;
-  level.passes_left = passes - 1;
-  level.stack = memory_.Top();
-  level.facts = facts_;
-  level.facts.program = program;
-  level.facts.depth = facts_.depth + 1;
   if (!own) {
     level.facts.frame = memory_.Push(session_.linked.FrameSize(program));
     if (level.facts.frame == Memory::kNoRoom) {
@@ -251,9 +221,7 @@ bool Runner::CallRange(const ir::Call& call, std::uint32_t passes) {
     }
     InitFrame(program, level.facts.frame);
   }
-  pc_ = level.begin;
-  ++calls_;
-  Enter(level);
+  EnterCalled(level);
   return true;
 }
 

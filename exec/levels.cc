@@ -26,6 +26,34 @@ void Runner::Enter(Level level) {
   Activate();
 }
 
+Runner::Level Runner::CalledLevel(LevelKind kind, ir::ProgramId program, std::uint32_t passes) const {
+  const IdRange<BlockId> blocks = session_.module.programs[program].blocks;
+  Level level;
+  level.kind = kind;
+  level.program = program;
+  level.begin = blocks.begin;
+  level.end = blocks.begin + blocks.count;
+  level.from = session_.block;
+  level.finish_block = (session_.linked.UseOf(session_.block) & kUseLast) != 0;
+  level.words_end = words_end_;
+  level.passes_left = passes - 1;
+  level.stack = memory_.Top();
+  level.facts = facts_;
+  level.facts.program = program;
+  level.facts.depth = facts_.depth + 1;
+  return level;
+}
+
+void Runner::EnterCalled(Level level) {
+  if (level.kind != LevelKind::kRange && session_.module.programs[level.program].saves_modal_state) {
+    level.saved = static_cast<std::uint32_t>(saves_.size());
+    saves_.push_back({channel_.modal, channel_.frame});
+  }
+  pc_ = level.begin;
+  ++calls_;
+  Enter(level);
+}
+
 void Runner::Activate() {
   const bool modal_call = !modals_.empty();
   facts_ = levels_.back().facts;

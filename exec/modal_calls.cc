@@ -60,23 +60,10 @@ bool Runner::TriggerModal() {
   if (count == 0) return false;
   if (!Deeper()) return true;
   Modal& modal = modals_[count - 1];
-  const ir::Program& callee = session_.module.programs[modal.program];
-  Level level;
-  level.kind = LevelKind::kModal;
-  level.program = modal.program;
-  level.begin = callee.blocks.begin;
-  level.end = callee.blocks.begin + callee.blocks.count;
-  level.from = session_.block;
-  level.finish_block = (session_.linked.UseOf(session_.block) & kUseLast) != 0;
-  level.words_end = words_end_;
-  level.passes_left = modal.passes - 1;
-  level.stack = memory_.Top();
+  Level level = CalledLevel(LevelKind::kModal, modal.program, modal.passes);
   level.modal = modal.place;
   level.keeps_locals = modal.started && session_.machine.modal_call_keeps_locals;
-  level.facts = facts_;
-  level.facts.program = modal.program;
   level.facts.given = modal.given;
-  level.facts.depth = facts_.depth + 1;
   const Memory::Address kept = session_.linked.ModalPlace(modal.place);
   Memory::Address cells = kept;
   if (!session_.machine.modal_call_keeps_locals) {
@@ -91,13 +78,7 @@ bool Runner::TriggerModal() {
   level.facts.level = cells;
   level.facts.frame = cells + session_.linked.LevelCells();
   modal.started = true;
-  if (callee.saves_modal_state) {
-    level.saved = static_cast<std::uint32_t>(saves_.size());
-    saves_.push_back({channel_.modal, channel_.frame});
-  }
-  pc_ = level.begin;
-  ++calls_;
-  Enter(level);
+  EnterCalled(level);
   return true;
 }
 

@@ -119,6 +119,10 @@ class Runner {
   void InitFrame(ir::ProgramId program, Memory::Address frame);
   bool Deeper();
   void Enter(Level level);
+  /// A level over all blocks of the program, called by the block that runs. Memory and arguments are the caller's task.
+  [[nodiscard]] Level CalledLevel(LevelKind kind, ir::ProgramId program, std::uint32_t passes) const;
+  /// Goes on in a level that was called; a program that saves modal state and frame finds them kept.
+  void EnterCalled(Level level);
   void Leave();  // the innermost level ends: next pass or back
   void PopLevel();
   void Return();  // from the innermost call

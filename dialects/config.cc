@@ -10,7 +10,6 @@
 #include <system_error>
 
 #include "base/letter_case.h"
-#include "base/near_name.h"
 #include "dialects/modal_names.h"
 #include "dialects/profile_keys.h"
 #include "dialects/read_text_file.h"
@@ -62,7 +61,7 @@ class Reader {
       } else if (member.key == "to") {
         ReadText("to", member.value, config_.to);
       } else if (std::ranges::find(kTables, member.key) == std::end(kTables)) {
-        ReportUnknown(member.key, member, kTables);
+        ReportUnknownKey(member.key, member, kTables, sink_);
       } else if (member.value.kind != TomlKind::kTable) {
         Refuse(member.key, member.value, fmt::format("a table [{}]", member.key));
       } else {
@@ -74,16 +73,6 @@ class Reader {
  private:
   void Refuse(std::string_view key, const TomlNode& value, std::string_view needed) {
     sink_.Report(Code::kWrongKeyValue, value.at, key, value.Describe(), needed);
-  }
-
-  void ReportUnknown(const std::string& path, const TomlMember& member, std::span<const std::string_view> names) {
-    diag::Diagnostic& finding = sink_.Report(Code::kUnknownKey, member.key_at, path);
-    if (const std::string_view near = NearName(member.key, names); !near.empty()) {
-      finding.help = fmt::format("did you mean {}?", near);
-      finding.fixes.push_back({member.key_at, std::string(near)});
-    } else {
-      finding.help = fmt::format("keys here: {}", fmt::join(names, ", "));
-    }
   }
 
   void ReadText(std::string_view key, const TomlNode& value, std::optional<std::string>& text) {
@@ -232,7 +221,7 @@ class Reader {
   void ReadLimit(const std::string& path, const TomlMember& member) {
     static constexpr std::string_view kNames[] = {"spindle", "feed", "x", "y", "z", "a", "b", "c", "u", "v", "w"};
     const auto name = std::ranges::find(kNames, member.key);
-    if (name == std::end(kNames)) return ReportUnknown(path, member, kNames);
+    if (name == std::end(kNames)) return ReportUnknownKey(path, member, kNames, sink_);
     const bool axis = member.key.size() == 1;
     Limit limit{member.key, 0, 0, member.key_at};
     const TomlNode& value = member.value;
@@ -255,7 +244,7 @@ class Reader {
     }
     std::vector<std::string_view> names;
     for (const ModalGroup& known : ModalGroups()) names.push_back(known.key);
-    ReportUnknown(path, member, names);
+    ReportUnknownKey(path, member, names, sink_);
   }
 
   void ReadCheck(const std::string& path, const TomlMember& member) {
@@ -269,7 +258,7 @@ class Reader {
     } else if (member.key == "ignore") {
       ReadCodes(path, member.value, config_.ignore);
     } else {
-      ReportUnknown(path, member, kCheckKeys);
+      ReportUnknownKey(path, member, kCheckKeys, sink_);
     }
   }
 

@@ -260,18 +260,8 @@ class Applier {
       if (group != ModalGroups().end()) {
         SetModalGroup(*group, path, member.value, profile_.start, sink_);
       } else {
-        ReportUnknownIn(path, member, names);
+        ReportUnknownKey(path, member, names, sink_);
       }
-    }
-  }
-
-  void ReportUnknownIn(const std::string& path, const TomlMember& member, std::span<const std::string_view> names) {
-    diag::Diagnostic& finding = sink_.Report(Code::kUnknownKey, member.key_at, path);
-    if (const std::string_view near = NearName(member.key, names); !near.empty()) {
-      finding.help = fmt::format("did you mean {}?", near);
-      finding.fixes.push_back({member.key_at, std::string(near)});
-    } else {
-      finding.help = fmt::format("keys here: {}", fmt::join(names, ", "));
     }
   }
 
@@ -354,7 +344,7 @@ class Applier {
       } else if (member.key == "reserved") {
         ok = ReadReserved(path, value, space.reserved) && ok;
       } else {
-        ReportUnknownIn(path, member, kKeys);
+        ReportUnknownKey(path, member, kKeys, sink_);
         ok = false;
       }
       ok = ok && index >= 0;

@@ -1,9 +1,12 @@
 #include "dialects/toml_document.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <utility>
+
+#include "base/near_name.h"
 
 #define TOML_EXCEPTIONS 0
 #define TOML_ENABLE_FORMATTERS 0
@@ -111,6 +114,17 @@ Result<TomlNode> ParseToml(const SourceFiles& files, FileId file, diag::Sink& si
     return Failure{};
   }
   return converter.Convert(parsed.table());
+}
+
+void ReportUnknownKey(std::string_view path, const TomlMember& member, std::span<const std::string_view> names,
+                      diag::Sink& sink) {
+  diag::Diagnostic& finding = sink.Report(diag::Code::kUnknownKey, member.key_at, path);
+  if (const std::string_view near = NearName(member.key, names); !near.empty()) {
+    finding.help = fmt::format("did you mean {}?", near);
+    finding.fixes.push_back({member.key_at, std::string(near)});
+  } else {
+    finding.help = fmt::format("keys here: {}", fmt::join(names, ", "));
+  }
 }
 
 }  // namespace ncport::dialects

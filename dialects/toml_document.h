@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,5 +42,10 @@ struct TomlMember {
 
 /// Parses the text of `file`. A syntax error is reported at its place.
 Result<TomlNode> ParseToml(const SourceFiles& files, FileId file, diag::Sink& sink);
+
+/// A finding on a key that means nothing in its table, with the nearest of the keys that do. `path`: as the message
+/// names it.
+void ReportUnknownKey(std::string_view path, const TomlMember& member, std::span<const std::string_view> names,
+                      diag::Sink& sink);
 
 }  // namespace ncport::dialects

@@ -166,7 +166,8 @@ ValueState StartAnalysis::EntryOfStart(const Context& context) {
     entry.cells[slot].flags |= Interval::kEntry;
     for (const DeclaredRange& declared : options_.declared) {
       if (declared.parameter != parameter || !(declared.low <= declared.high)) continue;
-      const Interval promised{declared.low, declared.high, Interval::kEntry};
+      // A call that leaves it out passes 0, whatever is promised of the others.
+      const Interval promised{std::fmin(declared.low, 0), std::fmax(declared.high, 0), Interval::kEntry};
       entry.cells[slot] = Converted(promised, module_.variables[parameter].type, machine_);
     }
   }

@@ -91,6 +91,9 @@ Finding CheckFlat(const Subject& subject, const Direction& /*direction*/) {
   if (!entry.Valid()) return {Verdict::kFails, "main program lost", "no program of that name", Listing(texts)};
 
   const SkipSets skips = SkipSetsOf(source);
+  // Flat text holds one run: with all blocks it is that of the program without its marks, as flatten tells the user.
+  ir::Module unmarked = source;
+  for (ir::Block& block : unmarked.blocks.All()) block.skip_level = ir::Block::kNoSkip;
   bool compared = false;
   for (std::uint32_t i = 0; i < skips.count; ++i) {
     exec::RunOptions options;
@@ -103,14 +106,15 @@ Finding CheckFlat(const Subject& subject, const Direction& /*direction*/) {
     flat_options.config = subject.config;
     flat_options.coverage = &coverage;
     flat_options.start_offset = subject.machine->start.work_offset;
+    const ir::Module& run_of = skips.sets[i] == 0 ? unmarked : source;
     std::string flat;
     OutputSink output(flat);
-    backends::iso::FlatWriter writer(source, context.files, *subject.target, flat_options, output, context.findings);
+    backends::iso::FlatWriter writer(run_of, context.files, *subject.target, flat_options, output, context.findings);
     exec::NoEnvironment environment;
     prove::RecordedTrace trace;
     Tee tee(writer, trace);
     const exec::Outcome outcome =
-        exec::Run(source, *subject.machine, options, environment, tee, context.findings, &coverage).outcome;
+        exec::Run(run_of, *subject.machine, options, environment, tee, context.findings, &coverage).outcome;
     if (outcome == exec::Outcome::kAlarmed) continue;  // an alarm has no flat form, and no program comes of it
     if (context.findings.HasErrors())
       return {Verdict::kRefused, ReasonOf(context.findings), TextOf(context.findings), Listing(texts)};

@@ -25,7 +25,8 @@ struct ValueRuleOptions {
   const SourceFiles* files = nullptr;  // for texts of expressions
   std::string control;                 // "NAME alarm", put before the number of an alarm; empty: no alarm is named
   std::string domain_alarm;            // of a function outside of its domain, whole; empty: none is certain
-  std::string test_example;            // how a program of the language tests a value first; {0} is the value, {1} the sign == or <=
+  std::string
+      test_example;  // how a program of the language tests a value first; {0} is the value, {1} the sign == or <=
   std::vector<ir::analysis::DeclaredRange> declared;
   std::vector<ir::analysis::DeclaredCell> declared_cells;
   bool all = false;  // also kPossible

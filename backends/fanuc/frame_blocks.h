@@ -11,8 +11,8 @@ bool NeedFrame(const RaiseInput& input, diag::Sink& sink);
 /// Head and ends of main programs: every modal group that a program can rely on is written.
 void FrameMainPrograms(const RaiseInput& input, Translation& out);
 /// Machines whose tools change at a position: the way there in front of each tool call, but where the head alone lies
-/// before it on every way; behind each what the change undoes. A cut behind one before X and Z were both named again is a finding (NC6001): it would start
-/// there.
+/// before it on every way; behind each what the change undoes. A cut behind one before X and Z were both named again is
+/// a finding (NC6001): it would start there.
 bool FrameToolChanges(const RaiseInput& input, Translation& out, diag::Sink& sink);
 /// Alarm when a letter that the macro needs is missing: the source takes 0 there, the target nothing (hazards#6).
 void GuardMacros(const RaiseInput& input, Translation& out);

@@ -130,16 +130,23 @@ TEST_CASE("arrange_words: the lead of a taper goes under the letter of the longe
 
 TEST_CASE("arrange_words: the reference point by way of the words' point, then the motion as it was") {
   CHECK(Arranged("  @m:1 : motion linear; feed = 100; axis X = 1\n"
+                 "  @m:2 N20 : distance incremental; reference reference; axis Z = 5\n")
+            .text ==
+        "motion linear; feed = 100; axis X = 1\n"
+        "N20 distance incremental; motion rapid; axis Z = 5\n"
+        "reference fixed-point; inert = 1; axis Z = 0\n"
+        "motion linear\n");
+  // A step of nothing is no way: no rapid that would need the motion again.
+  CHECK(Arranged("  @m:1 : motion linear; feed = 100; axis X = 1\n"
                  "  @m:2 N20 : distance incremental; reference reference; axis Z = 0\n")
             .text ==
         "motion linear; feed = 100; axis X = 1\n"
-        "N20 distance incremental; motion rapid; axis Z = 0\n"
-        "reference fixed-point; inert = 1; axis Z = 0\n"
-        "motion linear\n");
+        "N20 distance incremental\n"
+        "reference fixed-point; inert = 1; axis Z = 0\n");
   Refused(Arranged("  @m:1 : reference second-reference; axis Z = 0\n"), "another point");
   Refused(Arranged("  @m:1 : reference reference\n"), "this move to the reference point");
   Refused(Arranged("  @m:1 skip 1 : reference reference; axis Z = 0\n"), "this move to the reference point");
-  Refused(Arranged("  @m:1 : reference reference; axis Z = 0; feed = 100\n"), "a word beside");
+  Refused(Arranged("  @m:1 : reference reference; axis Z = 0; radius = 100\n"), "a word beside");
 }
 
 Passed Settled(std::string_view blocks, const Setting& setting = {}) { return test::Run(blocks, SettleArcs, setting); }

@@ -92,6 +92,12 @@ std::set<std::uint32_t> Announced(const diag::Sink& sink, ir::AlarmClass alarm) 
   return lines;
 }
 
+bool IsLibrary(const ir::Module& module, ir::BlockId block) {
+  return std::ranges::any_of(module.programs.All(), [&](const ir::Program& program) {
+    return program.library && block.value - program.blocks.begin < program.blocks.count;
+  });
+}
+
 /// A feed that is not above 0 is told where it is written, and the run stops at the move behind it.
 bool FeedAnnounced(const diag::Sink& sink, const ir::Module& module) {
   return std::ranges::any_of(sink.All(), [&](const diag::Diagnostic& finding) {
@@ -139,6 +145,9 @@ Finding CheckAnnounced(const Subject& subject, const Direction& /*direction*/) {
       const exec::Event& alarm = run.trace.Events().back();
       if (!IsOfValues(alarm.alarm)) continue;
       const std::uint32_t line = alarm.block.value + 1;
+      // Cycles of the control test what their words take, unless a change made their own numbers wrong.
+      const bool of_word = alarm.alarm == ir::AlarmClass::kRange || alarm.alarm == ir::AlarmClass::kMissingFeed;
+      if (of_word && IsLibrary(module, alarm.block)) continue;
       if (Announced(sink, alarm.alarm).contains(line)) continue;
       if (alarm.alarm == ir::AlarmClass::kMissingFeed && FeedAnnounced(sink, module)) continue;
       return {Verdict::kFails, "announce",

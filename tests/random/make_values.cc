@@ -1,6 +1,7 @@
 // Numbers and conditions with known bounds.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/random/maker.h"
@@ -61,9 +62,11 @@ Maker::Made Maker::Literal(const Interval& target) {
     // One value: as many decimals as it has.
     while (decimals < 9 && std::round(value * scale) / scale != value) scale = std::pow(10.0, ++decimals);
   } else {
-    while (std::ceil(target.low * scale) > std::floor(target.high * scale)) scale = std::pow(10.0, ++decimals);
+    while (decimals < 9 && std::ceil(target.low * scale) > std::floor(target.high * scale))
+      scale = std::pow(10.0, ++decimals);
     const auto first = static_cast<std::int64_t>(std::ceil(target.low * scale));
-    const auto last = static_cast<std::int64_t>(std::floor(target.high * scale));
+    // Bounds that differ by their rounding only hold no written number: the nearest one above.
+    const auto last = std::max(first, static_cast<std::int64_t>(std::floor(target.high * scale)));
     value = static_cast<double>(random_.Between(first, last)) / scale;
   }
   std::string text = fmt::format("{:.{}f}", std::fabs(value), decimals);

@@ -4,6 +4,7 @@
 #include "check/motion_words.h"
 #include "check/rules.h"
 #include "dialects/finding_alarms.h"
+#include "ir/block_words.h"
 #include "ir/motions.h"
 #include "ir/plane_axes.h"
 
@@ -97,6 +98,9 @@ void CheckArcWords(const Subject& subject, ir::ProgramId program, diag::Sink& si
     if (moving == nullptr) continue;
     const ir::ModalState modes = subject.modal.At(program, id);
     if (modes.plane == ir::Plane::kUnknown) continue;
+    // Without a motion word the block may be a place of a cycle, which knows no arcs, and whose R is a level or a taper
+    // (fanuc-8.7, 8.8).
+    if (subject.has_cycles && !ir::HasWord(module, block, WordOp::kMotion)) continue;
     const std::uint8_t normal = ir::AxesOf(modes.plane).normal;
     const PathWords words = WordsOf(module, block, normal);
     if (words.other) continue;
@@ -122,7 +126,7 @@ void CheckArcWords(const Subject& subject, ir::ProgramId program, diag::Sink& si
       sink.Report(diag::Code::kUnexpectedText, subject.PlaceOf(id, *words.center_outside),
                   kCenterLetters.substr(words.center_outside->index, 1))
           .help = fmt::format("the centre of an arc lies in the active plane, {}", kPlanes[normal]);
-    } else if (!words.describes_arc && words.axis_in_plane != nullptr) {
+    } else if (!words.describes_arc) {
       diag::Diagnostic& finding = sink.Report(diag::Code::kArcIncomplete, subject.PlaceOf(id, *moving));
       finding.help = "write the centre or the radius; a straight line needs its own motion word";
       finding.control = dialects::AlarmFor(subject.profile, finding.code);

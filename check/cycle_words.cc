@@ -115,7 +115,8 @@ class HoleFlow {
               "R is the level where the feed begins, and the word of the tool's axis the depth",
               hole && (state.level == State::kLacks || state.depth == State::kLacks)};
     }
-    if ((state.cycles & State::kPeck) == 0 || (state.step & State::kLacks) == 0) return {};
+    // Where another cycle is in force on some way, the size may lack on that way only.
+    if ((state.cycles & kHoles) != State::kPeck || (state.step & State::kLacks) == 0) return {};
     return {places.hole, "peck drilling without a depth of cut", "Q is the size of a peck, above 0",
             hole && state.cycles == State::kPeck && state.step == State::kLacks};
   }
@@ -168,6 +169,10 @@ class HoleFlow {
         case WordOp::kRadius:
           if (places.hole == nullptr) places.hole = &word;
           places.level = true;
+          break;
+        case WordOp::kCenter:
+          // I, J and K beside a hole are sizes of pecks that shrink (fanuc-13).
+          places.step = State::kHas;
           break;
         case WordOp::kCycleValue:
           Value(word, places);

@@ -1,5 +1,6 @@
 #include "check/subject.h"
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 
@@ -32,6 +33,8 @@ Subject::Subject(const ir::Module& checked, const dialects::Profile& read_for, c
       calls(module),
       modal(module, machine, graphs, calls, {machine.start, sub_entry}),
       refused_words_(module.programs.Size()) {
+  has_cycles =
+      std::ranges::any_of(module.words.All(), [](const ir::Word& word) { return word.op == ir::WordOp::kCycle; });
   for (const ir::ProgramId program : module.programs.Ids()) {
     for (const ir::BlockId id : module.programs[program].blocks) {
       const ir::Block& block = module.blocks[id];

@@ -23,7 +23,8 @@ struct Subject {
   const ir::Module& module;
   const dialects::Profile& profile;
   ir::Machine machine;
-  bool ignore_case;  // names and labels compare without regard to case
+  bool ignore_case;         // names and labels compare without regard to case
+  bool has_cycles = false;  // a canned cycle begins in some program
   ir::analysis::FlowGraphs graphs;
   ir::analysis::CallGraph calls;
   ir::analysis::ModalFlow modal;

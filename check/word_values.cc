@@ -10,6 +10,7 @@
 
 #include "check/expressions.h"
 #include "check/value_rules.h"
+#include "check/word_expressions.h"
 
 namespace ncport::check {
 
@@ -31,6 +32,8 @@ struct Limit {
 constexpr Limit kFactor{
     .low = -ir::analysis::kInfinity, .range = "the scale factors, none of them 0", .not_zero = true};
 constexpr double kLastOfTurn = 359.9999999;  // 360 is outside
+
+constexpr double kNoise = 1e-9;
 
 constexpr double kHalf = 0.5;  // numbers of functions and counts are rounded
 
@@ -114,6 +117,14 @@ class WordValues final : public ValueRule {
     }
   }
 
+  [[nodiscard]] bool HoldsElement(ir::ExprId id) const {
+    const ir::Expr& expr = input_.module.exprs[id];
+    if (expr.op == ir::ExprOp::kElement || expr.op == ir::ExprOp::kCellAt) return true;
+    bool holds = false;
+    ForOperands(input_.module, expr, [&](ir::ExprId operand) { holds = holds || HoldsElement(operand); });
+    return holds;
+  }
+
   [[nodiscard]] bool Scales(ir::BlockId block) const {
     for (const ir::WordId id : input_.module.blocks[block].words) {
       const ir::Word& word = input_.module.words[id];
@@ -136,7 +147,10 @@ class WordValues final : public ValueRule {
     const bool all_below = limit.above_low ? value.high <= limit.low : value.high < limit.low;
     const bool outside = all_below || value.low > limit.high || (limit.not_zero && value.IsZero());
     // An unknown value may be anything; a range around the limit says something only where the program makes it.
-    const bool likely = limit.not_zero ? value.Has(Interval::kZeroSeen) : IsKnown(value);
+    // Elements of an array have one range together, and a bound at 0 may be rounded outward only.
+    const bool noise = limit.above_low && value.low < 0 && value.low > -kNoise;
+    const bool likely =
+        limit.not_zero ? value.Has(Interval::kZeroSeen) : IsKnown(value) && !noise && !HoldsElement(expr);
     const Certainty certainty = outside && limit.alarms && !value.Has(Interval::kVacant) ? Certainty::kCertain
                                 : outside || likely                                      ? Certainty::kLikely
                                                                                          : Certainty::kPossible;

@@ -31,6 +31,7 @@ bool DrillingFlow::Join(BlockId, Drilling& into, const Drilling& from) const {
   if (callers) into.cycle = Drilling::kCallers;
   for (std::uint8_t i = 0; i < Drilling::kFields; ++i) join(into.fields[i], from.fields[i]);
   if (into.start != from.start) into.start = Drilling::Start::kOpen;
+  into.low = into.low || from.low;
   into.rigid = into.rigid || from.rigid;
   if (into.spindle != from.spindle) into.spindle = SpindleState::kUnknown;
   return into != before;
@@ -97,6 +98,9 @@ void DrillingFlow::Transfer(ProgramId program, BlockId id, Drilling& state) {
   const ModalState at = analyses_.Modal().At(program, id);
   const DrillingWords parts = WordsOf(id, AxesOf(at.plane).normal, IsHole(state.cycle));
   Store(program, parts, at.distance == Distance::kIncremental, state, nullptr);
+  // A count of 0 makes no hole.
+  if (parts.Drills() && IsHole(state.cycle))
+    state.low = at.return_level != ReturnLevel::kInitial || (parts.repeats != nullptr && state.low);
   Turn(id, state, parts.Drills(), false);
   const bool left = state.cycle == At(Cycle::kTapLeft);
   if (parts.Drills() && (left || state.cycle == At(Cycle::kTap))) {
@@ -121,6 +125,7 @@ std::optional<Drilling> DrillingFlow::Into(const analysis::CallSite&, analysis::
 Drilling DrillingFlow::Back(const analysis::CallSite&, const Drilling& at, const Drilling& exit) const {
   Drilling behind{.cycle = exit.cycle == Drilling::kNoCycle ? Drilling::kNoCycle : Drilling::kOpen};
   if (exit.cycle == Drilling::kCallers) behind = at;
+  behind.low = exit.low;
   behind.rigid = exit.rigid;
   behind.spindle = exit.spindle;
   return behind;
@@ -203,7 +208,14 @@ void DrillingFlow::Store(ProgramId program, const DrillingWords& parts, bool inc
                          std::vector<std::pair<ExprId, ExprId>>* assigns) {
   if (parts.cycle != Drilling::kUnset) {
     const bool rigid = (state.rigid || parts.rigid) && IsHole(parts.cycle);
-    if (!IsHole(parts.cycle) || !IsHole(state.cycle)) state = {.spindle = state.spindle};
+    if (!IsHole(parts.cycle) || !IsHole(state.cycle)) {
+      // Where a cycle may be in force already, its start level and its data go on. Behind holes that go back to that
+      // level the tool stands there.
+      const bool goes_on = state.cycle == Drilling::kOpen && IsHole(parts.cycle);
+      state = {.low = goes_on && state.low, .spindle = state.spindle};
+      if (state.low) state.start = Drilling::Start::kOpen;
+      if (goes_on) state.fields[Drilling::kStep] = state.fields[Drilling::kDwell] = Drilling::kOpen;
+    }
     state.cycle = parts.cycle;
     state.rigid = rigid;
     if (rigid && state.cycle == At(Cycle::kTap)) state.cycle = At(Cycle::kRigidTap);

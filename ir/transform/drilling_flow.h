@@ -25,6 +25,7 @@ struct Drilling {
   std::uint32_t cycle = kNoCycle;
   std::uint32_t fields[kFields] = {kUnset, kUnset, kUnset, kUnset};
   Start start = Start::kNone;                     // kTaken: a local holds the level at which the cycle began
+  bool low = false;                               // the tool may stand at the level of a hole, on some way at least
   bool rigid = false;                             // taps are rigid, on some way at least
   SpindleState spindle = SpindleState::kUnknown;  // of the main spindle, if it is one on all ways
   bool operator==(const Drilling&) const = default;
@@ -74,7 +75,7 @@ class DrillingFlow {
   // The client of ForwardFlow.
   using State = Drilling;
   [[nodiscard]] State Entry(ProgramId program) const;
-  [[nodiscard]] State Unknown(ProgramId) const { return {.cycle = Drilling::kOpen}; }
+  [[nodiscard]] State Unknown(ProgramId) const { return {.cycle = Drilling::kOpen, .low = true}; }
   bool Join(BlockId, State& into, const State& from) const;
   void Transfer(ProgramId program, BlockId id, State& state);
   /// Locals do not travel, nor do cycles: a call under one is refused where it stands. A modal call may run under one;

@@ -39,13 +39,13 @@ class Feed final : public ValueRule {
         FeedState state = *before;
         client.Set(program, id, state);
         const NeededFeed needed = client.NeedOf(program, id, state);
-        if (needed.need != FeedNeed::kNothing) Judge(program, id, state, needed, sink);
+        if (needed.need != FeedNeed::kNothing) Judge(id, state, needed, sink);
       }
     }
   }
 
  private:
-  void Judge(ProgramId program, BlockId id, const FeedState& state, const NeededFeed& needed, diag::Sink& sink) const {
+  void Judge(BlockId id, const FeedState& state, const NeededFeed& needed, diag::Sink& sink) const {
     const bool lacks = (state.ways & FeedState::kLacks) != 0;
     const bool idle = (state.ways & FeedState::kIdle) != 0;
     if (!lacks && !(idle && input_.options.all)) return;
@@ -57,10 +57,7 @@ class Feed final : public ValueRule {
     if ((state.ways & ~FeedState::kZero) == 0) {
       finding.help = "F0 is no feed: write F above 0";
     } else if ((state.ways & ~FeedState::kChanged) == 0) {
-      const bool minutes = sources_.modal->At(program, id).feed_mode == ir::FeedMode::kPerMinute;
-      finding.notes.push_back({{},
-                               minutes ? "the last F was a feed per revolution, now feeds are per minute"
-                                       : "the last F was a feed per minute, now feeds are per revolution"});
+      finding.notes.push_back({{}, "the kind of feed has changed since the last F, which dropped it"});
       finding.help = "a change of the kind of feed needs a new F";
     } else if (certain) {
       finding.help = "no block on the way here sets a feed: write F in this block";

@@ -193,7 +193,6 @@ NeededFeed FeedFlow::OwnNeed(ProgramId program, BlockId id, const State& state) 
   if (sources_.modal == nullptr) return {};
   if ((state.cycles & ~State::kNoCycle) != 0) return CycleNeed(block, state);
   const ir::ModalState modes = sources_.modal->At(program, id);
-  if (modes.feed_mode == ir::FeedMode::kInverseTime) return {};
   const ir::Word* moving = ir::IsArc(modes.motion) ? ArcWord(module_, block, modes.motion) : nullptr;
   if (moving == nullptr) moving = MovingWord(module_, block);
   if (moving == nullptr) return {};

@@ -168,6 +168,10 @@ class Pass {
         case WordOp::kMachineCoords:
           Assume("SUPA moves to machine coordinates of the source machine: check each of them on the new one");
           break;
+        case WordOp::kMotion:
+          // The last of one group counts in the source (fanuc-1); SINUMERIK refuses two in one block.
+          std::erase_if(words, [](const Word& other) { return other.op == WordOp::kMotion; });
+          break;
         case WordOp::kDwellSeconds:
           dwell.push_back(word);
           continue;

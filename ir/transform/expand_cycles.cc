@@ -178,7 +178,8 @@ class Pass {
       const Word word = module_.words[word_id];
       const bool of_hole = IsHoleWord(word) || word.op == WordOp::kAxis || word.op == WordOp::kRadius ||
                            (word.op == WordOp::kCenter && word.index == 2);
-      if (of_hole) continue;
+      // The code of the cycle is of the same group: the one that counts is the hole (fanuc-1).
+      if (of_hole || (word.op == WordOp::kMotion && parts.Drills())) continue;
       if (word.op == WordOp::kCenter) return Refuse(block, "centre words in a cycle");
       if (word.op == WordOp::kDwellSeconds && parts.Drills()) return Refuse(block, "a dwell beside a hole");
       const bool behind = word.phase == Phase::kAfter || word.phase == Phase::kLast;

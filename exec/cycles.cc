@@ -378,6 +378,11 @@ bool Kinematics::TurningCycle(const BlockWork& work) {
     if (session_.halted) return false;
     BlockWork cut;
     cut.Clear();
+    // There Q was read as the size of a peck, in lengths: an angle counts otherwise in inches.
+    if (work.HasField(CycleField::kStep)) {
+      session_.Refuse(diag::Code::kCannotRun, "Q of a thread in a block without the code of the cycle");
+      return false;
+    }
     if (work.Has(BlockWork::kStartAngle)) {
       cut.has |= BlockWork::kStartAngle;
       cut.start_angle = work.start_angle;

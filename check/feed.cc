@@ -39,13 +39,13 @@ class Feed final : public ValueRule {
         FeedState state = *before;
         client.Set(program, id, state);
         const NeededFeed needed = client.NeedOf(program, id, state);
-        if (needed.need != FeedNeed::kNothing) Judge(id, state, needed, sink);
+        if (needed.need != FeedNeed::kNothing) Judge(program, id, state, needed, sink);
       }
     }
   }
 
  private:
-  void Judge(BlockId id, const FeedState& state, const NeededFeed& needed, diag::Sink& sink) const {
+  void Judge(ProgramId program, BlockId id, const FeedState& state, const NeededFeed& needed, diag::Sink& sink) const {
     const bool lacks = (state.ways & FeedState::kLacks) != 0;
     const bool idle = (state.ways & FeedState::kIdle) != 0;
     if (!lacks && !(idle && input_.options.all)) return;
@@ -57,7 +57,10 @@ class Feed final : public ValueRule {
     if ((state.ways & ~FeedState::kZero) == 0) {
       finding.help = "F0 is no feed: write F above 0";
     } else if ((state.ways & ~FeedState::kChanged) == 0) {
-      finding.notes.push_back({{}, "the kind of feed has changed since the last F, which dropped it"});
+      finding.notes.push_back(
+          {{},
+           fmt::format("the kind of feed has changed since the last F, which dropped it: feeds are {} here",
+                       KindOf(sources_.modal->At(program, id).feed_mode))});
       finding.help = "a change of the kind of feed needs a new F";
     } else if (certain) {
       finding.help = "no block on the way here sets a feed: write F in this block";
@@ -66,6 +69,17 @@ class Feed final : public ValueRule {
     }
     const bool lead = needed.need == FeedNeed::kLead || needed.need == FeedNeed::kCycleLead;
     finding.control = ControlAlarm(lead ? ir::AlarmClass::kGeometry : ir::AlarmClass::kMissingFeed);
+  }
+
+  static std::string_view KindOf(ir::FeedMode mode) {
+    switch (mode) {
+      case ir::FeedMode::kPerRevolution:
+        return "per revolution";
+      case ir::FeedMode::kInverseTime:
+        return "inverse times";
+      default:
+        return "per minute";
+    }
   }
 
   [[nodiscard]] std::string NoteOf(const NeededFeed& needed) const {

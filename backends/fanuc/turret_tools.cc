@@ -232,18 +232,12 @@ bool MapTurretTools(const RaiseInput& input, Translation& out, diag::Sink& sink)
         // There T stands in no block with a move (mazak-lathe-4.4).
         const bool apart = input.profile->IsMazakLathe();
         if (!apart) kept.push_back(text);
-        Block made = block;
-        editor.SetWords(made, kept);
-        module.blocks[id].words = made.words;
+        editor.SetWords(id, kept);
         if (apart && machine) {
           editor.InsertAfter(id, alone(text));
         } else if (apart) {
           Block first = alone(ir::MakeWord(WordOp::kMotion, ir::Motion::kRapid));
-          first.number = block.number;
-          first.number_digits = block.number_digits;
-          first.label = block.label;
-          module.blocks[id].label = {};
-          module.blocks[id].number = Block::kNoNumber;
+          editor.TakeHead(first, id);
           editor.InsertBefore(id, first);
           editor.InsertBefore(id, alone(text));
         }

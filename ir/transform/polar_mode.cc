@@ -214,24 +214,8 @@ class Pass {
         words.push_back(made);
       }
     }
-    for (std::size_t i = 0; i < first.size(); ++i) {
-      Block made = editor.MakeBlock(id);
-      made.skip_level = block.skip_level;
-      if (i == 0) {
-        made.number = block.number;
-        made.number_digits = block.number_digits;
-        made.label = block.label;
-      }
-      editor.SetWords(made, first[i]);
-      editor.InsertBefore(id, made);
-    }
-    Block changed = block;
-    editor.SetWords(changed, words);
-    module_.blocks[id].words = changed.words;
-    if (!first.empty()) {
-      module_.blocks[id].label = {};
-      module_.blocks[id].number = Block::kNoNumber;
-    }
+    for (const std::vector<Word>& assignment : first) editor.PutInFront(id, assignment);
+    editor.SetWords(id, words);
     if (words.empty()) editor.Remove(id);
   }
 
